@@ -48,8 +48,8 @@ in common with those before it is not traced again.
     {"walk", "OPTIONS SCENE...     walk through a scene in a browser", run_walk,
      [] { return own_table(RenderCommand("walk")); },
      R"(Walk through a scene in a browser: prints the address to open. Options are those of `lightwalk render` and those on
-reuse of `lightwalk animate`, but for what is about files of pictures. When the scene's files change it is read again,
-and the walk goes on from where it stood; what is wrong with them stands in the page.
+reuse of `lightwalk animate`, but for what is about files of pictures. When the scene's files are edited they are read
+again beside the frames, and the walk goes on with what has not changed; what is wrong with them stands in the page.
 )",
      ""},
     {"trace", "OPTIONS SCENE...    radiance along single rays   (like rtrace)", run_trace,

@@ -203,7 +203,10 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
         {"--beside FILES", &serve.beside,
          "octree, frozen scene or scene files, in one word with spaces between them, that the page "
          "shows beside the walk's scene where somebody compares; else that is the scene itself, at "
-         "another time, under other dimmers or of other materials"}};
+         "another time, under other dimmers or of other materials"},
+        {"--watch WHEN", choice(serve.watch, {{"on", true}, {"off", false}}),
+         "whether files of the scene that are edited are read again, beside the frames: what has "
+         "not changed stays. On ranks the walk begins anew"}};
 }
 
 void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {

@@ -101,7 +101,9 @@ CompiledScene::CompiledScene(const std::shared_ptr<const CompiledScene>& base,
       resources_(base->resources_),
       frozen_(base->frozen_),
       extended_(true),
-      model_(base->model_) {
+      model_(base->model_),
+      keys_(base->keys_),
+      sources_moved_(base->sources_moved_) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
     const ExecutorTaskRunner task_runner(*executor);
@@ -111,7 +113,7 @@ CompiledScene::CompiledScene(const std::shared_ptr<const CompiledScene>& base,
     } catch (const GeometryChange&) {
         model_ = changed_model(*model_, change);
         scene_ = std::make_shared<const Scene>(model_, modifier_factory, *resources_, warnings_,
-                                               task_runner, SceneExtent::whole, ablation_);
+                                               task_runner, SceneExtent::whole, ablation_, keys_);
     }
     cost_.build_seconds = watch.seconds();
     cost_.build_peak_bytes = peak_memory_bytes();
@@ -211,10 +213,39 @@ void CompiledScene::compile(Resources& asked) {
     const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
     problems_.raise();
     trim_heap();
-    scene_ =
-        std::make_shared<const Scene>(model_, modifier_factory, asked, warnings_,
-                                      ExecutorTaskRunner(*executor), SceneExtent::whole, ablation_);
+    sources_moved_ = false;
+    scene_ = std::make_shared<const Scene>(model_, modifier_factory, asked, warnings_,
+                                           ExecutorTaskRunner(*executor), SceneExtent::whole,
+                                           ablation_, keys_);
     trim_heap();
+    cost_.build_seconds = watch.seconds();
+    cost_.build_peak_bytes = peak_memory_bytes();
+}
+
+ModelDifference CompiledScene::compare_with(const CompiledScene& before) {
+    constexpr std::size_t kMostPieces = 256;
+    problems_.raise();
+    ComparedModel compared = compare_models(before.model(), model_);
+    model_ = std::move(compared.model);
+    ModelDifference& difference = compared.difference;
+    sources_moved_ = before.sources_moved_ || !difference.sources_in_place;
+    if (!before.sources_moved_ && before.keys_.pieces() < kMostPieces) {
+        keys_ = before.keys_;
+        if (difference.before_count != difference.after_count)
+            keys_ =
+                keys_.replaced(difference.first, difference.before_count, difference.after_count);
+    } else if (!difference.same_geometry) {
+        difference.keys_kept = false;
+    }
+    return difference;
+}
+
+void CompiledScene::compile_on(const std::shared_ptr<const CompiledScene>& before) {
+    const Stopwatch watch;
+    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
+    scene_ = std::make_shared<const Scene>(before->scene_, unchanged(*model_), modifier_factory,
+                                           *resources_, warnings_, ExecutorTaskRunner(*executor));
+    base_ = before->base_ ? before->base_ : before;
     cost_.build_seconds = watch.seconds();
     cost_.build_peak_bytes = peak_memory_bytes();
 }

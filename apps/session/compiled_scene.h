@@ -9,6 +9,7 @@
 #include "apps/session/lightwalk/scene.h"
 #include "core/error.h"
 #include "core/math/task_runner.h"
+#include "core/model/model_difference.h"
 #include "core/model/resources.h"
 #include "core/problem_list.h"
 #include "core/scene/scene.h"
@@ -65,6 +66,14 @@ class CompiledScene {
     void compile() { compile(*resources_); }
     /// Compiles by what `asked` says of the library.
     void compile(Resources& asked);
+    /// Before compile(): what differs from another reading of the same files. The modifiers that
+    /// both have get the indices that they have there, where that is possible. Throws InputError,
+    /// with all problems of the description.
+    /// @param before  after compile()
+    [[nodiscard]] ModelDifference compare_with(const CompiledScene& before);
+    /// In place of compile(), where compare_with(*before) finds the same geometry: shares what it
+    /// can with it. Throws InputError; GeometryChange where the modifiers make it another one.
+    void compile_on(const std::shared_ptr<const CompiledScene>& before);
     /// From now on the scene is in memory that other processes can map: returns where; "" where the
     /// system has no such memory. Before compile(); throws InputError as that does.
     [[nodiscard]] std::string share();
@@ -107,6 +116,8 @@ class CompiledScene {
     std::shared_ptr<const MemoryFile> shared_;  ///< with other processes; null: nothing is
     ProblemList problems_;                      ///< of the description, which model_ leaves out
     std::shared_ptr<const Model> model_;
+    SurfaceKeys keys_;            ///< of its surfaces
+    bool sources_moved_ = false;  ///< model_ has its sources elsewhere than the scene it shares
     std::shared_ptr<const Scene> scene_;
     SceneCost cost_;
 };

@@ -53,11 +53,11 @@ class RenderBackend {
     [[nodiscard]] const RendererOptions& options() const { return options_; }
     /// Until the scene is changed.
     [[nodiscard]] const SceneSession& session() const { return *session_; }
-    /// From now on the scene is this one, of the same surfaces, and has a session of its own: its
+    /// From now on the scene is this one, and has a session of its own: its
     /// cache of indirect light is empty, and frames() go on where they were. Nothing of what
     /// session() returned before is used any more, or may be. Throws InputError, and leaves all as
     /// it was.
-    /// @param scene  a change of session().compiled()
+    /// @param scene  a change of session().compiled(), or another scene after compile()
     virtual void change(const std::shared_ptr<const CompiledScene>& scene);
     /// The same, for a change of session().compiled().model(). On ranks it is called on rank 0 and
     /// while run() is, and changes the scene of all ranks, or of none.

@@ -15,6 +15,7 @@ export function make_counters(session, navigator, camera, decoder) {
         last_isolux: null,
         last_material: null,
         last_edited: null,
+        last_followed: null,
         last_time: null,
         state: {}, ///< the server's newest `state` message
         errors: [],

@@ -4,6 +4,7 @@ import { Camera } from "./camera.js";
 import { Comparison } from "./comparison.js";
 import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
+import { followed_text } from "./followed.js";
 import { Glare } from "./glare.js";
 import { Input } from "./input.js";
 import { IsoluxPanel } from "./isolux_panel.js";
@@ -13,7 +14,7 @@ import { LightPanel } from "./light_panel.js";
 import { MaterialPanel } from "./material_panel.js";
 import { Measuring } from "./measuring.js";
 import { Navigator } from "./navigator.js";
-import { cover, notice, show_failures, uncover } from "./notices.js";
+import { cover, notice, show_failures, show_troubles, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
 import { close_panel, is_open, start_panels } from "./panels.js";
 import { panel_messages } from "./panel_messages.js";
@@ -73,6 +74,7 @@ const session = new Session(session_id(), camera.available, screen, {
         cover(text || "Reading the scene…", share);
     },
     failed: scene_failed,
+    followed: files_followed,
     glare: (message) => {
         counters.last_glare = message;
         glare.answer(message);
@@ -316,6 +318,7 @@ function scene_loaded(message) {
     awaiting_picture = true;
     counters.ready = false;
     show_failures([]);
+    show_troubles([]);
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
     comparison.place = message.beside ?? null;
@@ -339,6 +342,19 @@ function open_panels({ lights = [], time: place }) {
     if (!session.driving) return;
     lamps.tell();
     time.tell();
+}
+
+/** The scene's files were edited: it is as they have it now, or they have errors. */
+function files_followed(message) {
+    counters.last_followed = message;
+    const { problems = [], files = [] } = message;
+    show_troubles(problems);
+    if (problems.length > 0) return;
+    sides.take("A", { ...message, type: "loaded" });
+    plan.forget();
+    isolux.outdate("the scene's files are edited");
+    commands.follow_light("the scene's files are edited");
+    if (files.length > 0) notice(followed_text(message));
 }
 
 function show_panel_buttons() {

@@ -3,6 +3,7 @@ import { by_id, element } from "./dom.js";
 
 const kShown = 2600,
     kShownBad = 6000; // [ms]
+const kTroubles = 4; // that are shown beside the picture
 
 let timer;
 
@@ -34,6 +35,14 @@ function failure_line(message) {
     else
         line.append(element("span", { className: "where", textContent: parts[1] }), ` ${parts[2]}`);
     return line;
+}
+
+/** Show why the scene is still as it was before its files were edited; an empty list: it is as they have it. */
+export function show_troubles(messages) {
+    by_id("troubles").replaceChildren(...messages.slice(0, kTroubles).map(failure_line));
+    const more = messages.length - kTroubles;
+    if (more > 0) by_id("troubles").append(element("li", { textContent: `and ${more} more` }));
+    by_id("trouble").hidden = messages.length === 0;
 }
 
 /** Show the errors for which the scene cannot be read; an empty list hides them. */

@@ -75,6 +75,14 @@ void ClientInbox::announce(std::string text) {
     const std::lock_guard lock(mutex_);
     send_to_others(std::nullopt, text);
     stage_ = std::move(text);
+    files_.clear();
+}
+
+void ClientInbox::announce_files(const std::string& text, bool problem, const std::string& stage) {
+    const std::lock_guard lock(mutex_);
+    send_to_others(std::nullopt, text);
+    if (!stage.empty()) stage_ = stage;
+    files_ = problem ? text : std::string();
 }
 
 void ClientInbox::announce_edits(std::string text) {
@@ -245,6 +253,7 @@ void ClientInbox::greet(ClientId client, const HelloRequest& request) {
     if (!inbox_.wish.lights.levels.empty())
         sender_->send_text(client, walk_text(LightsReply{inbox_.wish.lights}));
     if (!edits_.empty()) sender_->send_text(client, edits_);
+    if (!files_.empty()) sender_->send_text(client, files_);
     announce_roles();
     inbox_.joined.push_back(client);
     if (request.depth) inbox_.want_depth.push_back(client);

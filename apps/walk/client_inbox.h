@@ -83,6 +83,10 @@ class ClientInbox final : public WebHandler {
     void announce(std::string text);
     /// What has become of the edits: the same.
     void announce_edits(std::string text);
+    /// What has become of files that were edited: all are told.
+    /// @param problem  whether newcomers are told, too, until something else is announced of them
+    /// @param stage    of the scene from now on, for newcomers; "": as it was
+    void announce_files(const std::string& text, bool problem, const std::string& stage);
     void tell(ClientId client, std::string text) { sender_->send_text(client, std::move(text)); }
     void tell_all(const std::string& text);
     void tell_watchers(const std::string& text);
@@ -132,6 +136,7 @@ class ClientInbox final : public WebHandler {
     DriverLock driver_lock_;
     WelcomeReply welcome_;
     std::string stage_;  ///< what was announced last
+    std::string files_;  ///< what is wrong with edited files; "": nothing
     std::string edits_;  ///< what was last announced of them; "": nothing
 };
 

@@ -38,6 +38,12 @@ class Comparison {
     /// A step of the walk, and where somebody compares one of the scene beside.
     void step(const StopFlag& stop);
 
+    /// The walk's scene is another one, as its files were edited: one that began as it was begins
+    /// anew, as what its client wants of it.
+    void follow() {
+        if (options_.scene.empty()) end();
+    }
+
   private:
     /// What is there while somebody compares.
     struct Side;

@@ -60,8 +60,9 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       frames_(frames),
       warnings_(warnings),
       session_(&session),
-      model_(session.compiled().model()),
-      states_(model_, session.compiled().library()),
+      read_(session.shared_compiled()),
+      model_(read_->model()),
+      states_(std::make_unique<SceneStates>(model_, read_->library())),
       scene_state_(options_.start.state),
       client_inbox_(client_inbox),
       screen_(screen),
@@ -246,7 +247,7 @@ bool RenderLoop::change_scene(SceneState state) {
     change_problem_.clear();
     try {
         if (!options_.change) throw InputError("the scene cannot be changed here");
-        take_session(options_.change(states_.change_of(state)));
+        take_session(options_.change(states_->change_of(state)));
     } catch (const InputError& error) {
         change_problem_ = error.what();
         return false;
@@ -262,15 +263,15 @@ void RenderLoop::set_time() {
 }
 
 std::optional<TimePlace> RenderLoop::time_place() const {
-    std::optional<TimePlace> place = ::lightwalk::time_place(states_.skies());
+    std::optional<TimePlace> place = ::lightwalk::time_place(states_->skies());
     if (place && !options_.change) place->refused = "the scene cannot be changed here";
     return place;
 }
 
 void RenderLoop::tell_time() {
-    if (states_.skies().empty() && change_problem_.empty()) return;
+    if (states_->skies().empty() && change_problem_.empty()) return;
     client_inbox_.tell_all(
-        walk_text(time_reply(states_.skies(), scene_state_.time, change_problem_)));
+        walk_text(time_reply(states_->skies(), scene_state_.time, change_problem_)));
 }
 
 /// Whatever asks rays asks them of the new session.
@@ -479,7 +480,7 @@ void RenderLoop::save_materials(const WebReply& reply) const {
 }
 
 void RenderLoop::save_sky(const WebReply& reply) const {
-    const SkyCalls& skies = states_.skies();
+    const SkyCalls& skies = states_->skies();
     if (skies.empty() || !skies.refusal().empty())
         return reply({404, "text/plain; charset=utf-8", "no generator writes the sky here\n", {}});
     reply(

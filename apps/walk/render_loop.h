@@ -11,6 +11,7 @@
 #include "apps/session/scene_session.h"
 #include "apps/walk/client_inbox.h"
 #include "apps/walk/material_edits.h"
+#include "apps/walk/scene_follower.h"
 #include "apps/walk/scene_state.h"
 #include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
@@ -42,6 +43,9 @@ struct RenderLoopOptions {
     /// changed.
     std::function<const SceneSession&(const ModelChange& change)> change = {};
     WalkStart start = {};  ///< what the session shows of its model
+    /// Puts another scene in its place, likewise.
+    std::function<const SceneSession&(const std::shared_ptr<const CompiledScene>& scene)> replace =
+        {};
 };
 
 /// Draws until it is told to stop. For one thread.
@@ -79,6 +83,12 @@ class RenderLoop {
     [[nodiscard]] const std::string& change_problem() const { return change_problem_; }
     [[nodiscard]] const SceneState& scene_state() const { return scene_state_; }
 
+    /// Show the scene as its files have it by now: views, camera, questions, dimmers, the time and
+    /// edits stay, as far as what they speak of is still there. Where it cannot be shown all is as
+    /// it was, and the reply says why.
+    /// @param news  with a scene
+    [[nodiscard]] FollowedReply follow(const SceneNews& news);
+
     /// Where and when the scene's sky is seen; nothing where no generator has written it.
     [[nodiscard]] std::optional<TimePlace> time_place() const;
 
@@ -101,6 +111,8 @@ class RenderLoop {
 
     void answer(const InboxContents& inbox);
     void take_session(const SceneSession& session);
+    [[nodiscard]] SceneState state_in(const SceneStates& states, const Model& model,
+                                      const CheckedEdits& edits) const;
     void edit();
     void mix_lights();
     void dim();
@@ -135,9 +147,10 @@ class RenderLoop {
     LiveFrames& frames_;
     WarningSink& warnings_;
     const SceneSession* session_;
-    const Model& model_;  ///< as it was read
-    SceneStates states_;
-    SceneState scene_state_;  ///< what session_ shows of it
+    std::shared_ptr<const CompiledScene> read_;  ///< the scene as it was read
+    std::reference_wrapper<const Model> model_;  ///< the same
+    std::unique_ptr<SceneStates> states_;        ///< always there
+    SceneState scene_state_;                     ///< what session_ shows of it
     std::string change_problem_;
     ClientInbox& client_inbox_;
     WalkScreen& screen_;

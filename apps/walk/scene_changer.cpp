@@ -10,4 +10,12 @@ std::function<const SceneSession&(const ModelChange& change)> scene_changer(
     };
 }
 
+std::function<const SceneSession&(const std::shared_ptr<const CompiledScene>& scene)>
+scene_replacer(RenderBackend& backend) {
+    return [&backend](const std::shared_ptr<const CompiledScene>& scene) -> const SceneSession& {
+        backend.change(scene);
+        return backend.session();
+    };
+}
+
 }  // namespace lightwalk

@@ -7,9 +7,11 @@
 
 namespace lightwalk {
 
-/// What RenderLoopOptions::change needs.
+/// What RenderLoopOptions::change and RenderLoopOptions::replace need.
 /// @param backend  must outlive the result
 [[nodiscard]] std::function<const SceneSession&(const ModelChange& change)> scene_changer(
     RenderBackend& backend);
+[[nodiscard]] std::function<const SceneSession&(const std::shared_ptr<const CompiledScene>& scene)>
+scene_replacer(RenderBackend& backend);
 
 }  // namespace lightwalk

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <set>
 #include <thread>
 
 #include "apps/command_run.h"
@@ -13,6 +14,7 @@
 #include "apps/walk/render_loop.h"
 #include "apps/walk/scene_changer.h"
 #include "apps/walk/walk_reception.h"
+#include "apps/walk/scene_follower.h"
 #include "io/files/watched_files.h"
 #include "io/formats/words.h"
 #include "io/net/web_rules.h"
@@ -232,10 +234,18 @@ class WalkRun final : CommandRun {
         if (ranks() != nullptr) (void)ranks()->tell(load);
         RendererRequest request = task();
         request.files = files;
-        request.when_read = [&] { announce("building the scene", 0.5); };
+        std::set<std::string> texts;
+        request.when_read = [&] {
+            announce("building the scene", 0.5);
+            for (const auto& [path, state] : files->recorded()) texts.insert(path);
+        };
         Renderer renderer = open_renderer(ranks(), request);
         renderer.backend().session().warn_of_darkness();
-        renderer.run([&] { draw(page, *files, renderer); });
+        renderer.run([&] {
+            LoadedFiles read{request.source, request.options.warn,
+                             renderer.backend().session().shared_compiled(), files, texts};
+            draw(page, std::move(read), renderer);
+        });
     }
 
     /// Of a scene beside the walk's.
@@ -254,8 +264,17 @@ class WalkRun final : CommandRun {
         return options;
     }
 
+    /// What is drawn, in steps.
+    struct Drawn {
+        RenderLoop& loop;
+        Comparison* comparison;  ///< null: nothing can be compared
+        void step() const {
+            comparison ? comparison->step(interrupt_flag()) : loop.step(interrupt_flag());
+        }
+    };
+
     /// Draw until the scene's files change.
-    void draw(Page& page, WatchedFiles& files, Renderer& renderer) {
+    void draw(Page& page, LoadedFiles read, Renderer& renderer) {
         const SceneSession& session = renderer.backend().session();
         LoadedReply loaded;
         loaded.views = command_.serve->page.views;
@@ -268,6 +287,7 @@ class WalkRun final : CommandRun {
                                   command_.common.request.history,
                                   ranks() != nullptr ? ranks()->size() : 1};
         options.change = scene_changer(renderer.backend());
+        if (ranks() == nullptr) options.replace = scene_replacer(renderer.backend());
         RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
                         *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
@@ -287,14 +307,60 @@ class WalkRun final : CommandRun {
         if (const auto& groups = renderer.backend().frames().light_groups())
             loaded.lights = groups->names;
         page.inbox.announce(walk_text(loaded));
+        const Drawn drawn{loop, comparison ? &*comparison : nullptr};
+        if (!command_.serve->watch) {
+            while (page.goes_on()) drawn.step();
+        } else if (ranks() != nullptr || reads_standard_input()) {
+            draw_until_change(page, *read.files, drawn);
+        } else {
+            SceneFollower follower(std::move(read));
+            draw_and_follow(page, follower, drawn, loaded);
+        }
+    }
+
+    /// Where the scene cannot be read again beside the frames.
+    static void draw_until_change(Page& page, const WatchedFiles& files, const Drawn& drawn) {
         auto looked = std::chrono::steady_clock::now();
         while (page.goes_on()) {
-            comparison ? comparison->step(interrupt_flag()) : loop.step(interrupt_flag());
+            drawn.step();
             const auto now = std::chrono::steady_clock::now();
             if (now - looked < kLookAtFiles) continue;
             looked = now;
             if (files.have_changed()) return;
         }
+    }
+
+    /// Until the walk has to begin anew.
+    /// @param loaded  what the page was told of the scene
+    static void draw_and_follow(Page& page, SceneFollower& follower, const Drawn& drawn,
+                                LoadedReply loaded) {
+        while (page.goes_on()) {
+            drawn.step();
+            const std::optional<SceneNews> news = follower.take();
+            if (!news) continue;
+            if (news->begins_anew) return;
+            FollowedReply reply;
+            if (news->scene)
+                reply = drawn.loop.follow(*news);
+            else
+                reply.problems = news->problems;
+            const bool follows = news->scene && reply.problems.empty();
+            follower.settle(follows);
+            if (follows) {
+                if (drawn.comparison) drawn.comparison->follow();
+                loaded.lights = reply.lights;
+                loaded.time = reply.time;
+            }
+            for (const std::string& problem : reply.problems)
+                std::fprintf(stderr, "%s\n", problem.c_str());
+            page.inbox.announce_files(walk_text(reply), !reply.problems.empty(),
+                                      follows ? walk_text(loaded) : std::string());
+        }
+    }
+
+    [[nodiscard]] bool reads_standard_input() const {
+        return std::ranges::find(command_.common.request.source.files, "-") !=
+               command_.common.request.source.files.end();
     }
 
     /// After a scene that cannot be read. What comes meanwhile is of no use any more.

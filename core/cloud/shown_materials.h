@@ -5,8 +5,11 @@
 #include <bitset>
 #include <cstdint>
 #include <span>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "core/cloud/changed_places.h"
 #include "core/cloud/point.h"
 #include "core/scene/scene.h"
 
@@ -27,12 +30,16 @@ class ShownMaterials {
     [[nodiscard]] std::vector<std::uint8_t> flags() const;
 
     [[nodiscard]] bool may_show(const CloudPoint& point) const {
-        return bits_[static_cast<std::size_t>(point.kind)][point.surface & kMaterialBits];
+        return bits_[static_cast<std::size_t>(point.kind)][point.surface & kMaterialBits] ||
+               (places_ && places_->may_touch(point));
     }
+    /// From now on points that these may touch count as such that may show the materials.
+    void add_places(ChangedPlaces places) { places_ = std::move(places); }
 
   private:
     using Bits = std::bitset<kMaterialBits + 1>;
     std::array<Bits, kPointKinds> bits_;
+    std::optional<ChangedPlaces> places_;
 };
 
 /// Takes out the points that may show the materials; the others keep their order.

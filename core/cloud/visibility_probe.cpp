@@ -18,10 +18,9 @@ constexpr double kRipple = 0.01;
 
 /// Extends the hash of a path by one surface; never 0. Its kMaterialBits are those of the surfaces'
 /// modifiers alone.
-std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t frame,
+std::uint32_t met_surface(std::uint32_t met, std::uint32_t surface, std::int32_t frame,
                           ModifierId modifier) {
-    const std::uint64_t both = std::uint64_t{static_cast<std::uint32_t>(surface)} << 32 |
-                               static_cast<std::uint32_t>(frame);
+    const std::uint64_t both = std::uint64_t{surface} << 32 | static_cast<std::uint32_t>(frame);
     const auto bits = static_cast<std::uint32_t>(mix_bits(mix_bits(both + 1) ^ met) >> 32);
     constexpr std::uint32_t kNeverNone = kMaterialBits + 1;
     return (bits & ~kMaterialBits) | kNeverNone | met_material(met, modifier);
@@ -105,12 +104,18 @@ bool VisibilityProbe::reflects_flat(const Walk& walk, const Hit& hit,
            tracer_.scene().surface(hit.surface).is_flat() && hit.perturbation == Vec3{};
 }
 
+/// The hash of a path that goes on to a hit.
+std::uint32_t VisibilityProbe::met(const Walk& walk, const Hit& hit) const {
+    return met_surface(walk.met, tracer_.scene().surface_key(hit.surface), index(hit.instance),
+                       hit.modifier);
+}
+
 /// The hash of a path that ends at a source at infinity, or at nothing.
 std::uint32_t VisibilityProbe::background(const Walk& walk) const {
     const Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
     const std::optional<SurfaceId> seen =
         walk.segment.t_max < kHuge ? std::nullopt : tracer_.lights().background(ray);
-    return met_surface(walk.met, index(seen.value_or(kNoSurface)), 0, kVoid);
+    return met_surface(walk.met, tracer_.scene().surface_key(seen.value_or(kNoSurface)), 0, kVoid);
 }
 
 float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
@@ -185,7 +190,7 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
         return false;
     }
     const SurfaceAppearance appearance = appearance_at(hit);
-    walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance), hit.modifier);
+    walk.met = met(walk, hit);
     const bool mirror =
         appearance.appearance == Appearance::mirror && reflects_flat(walk, hit, appearance);
     const bool pane =
@@ -199,7 +204,7 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
         walk.primary->slope += static_cast<float>(slopes_of(hit, appearance).left);
         if (walk.primary->kind == PointKind::plain) walk.primary->kind = PointKind::through;
         if (const std::uint32_t cell = data_cells_.find(hit, walk.segment.direction); cell != 0)
-            walk.met = met_surface(walk.met, static_cast<std::int32_t>(cell), 0, kVoid);
+            walk.met = met_surface(walk.met, cell, 0, kVoid);
     }
     walk.pass(hit, mirror);
     return true;
@@ -212,7 +217,7 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
     const SurfaceAppearance appearance = appearance_at(hit);
     if (appearance.appearance == Appearance::absent && walk.surfaces < kMostSurfaces) {
         ++walk.surfaces;
-        walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance), hit.modifier);
+        walk.met = met(walk, hit);
         walk.pass(hit, false);
         return true;
     }
@@ -226,7 +231,7 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
         image->slope = static_cast<float>(slopes_of(hit, appearance).reflected);
         Walk mirrored = walk;
         mirrored.primary = image;
-        mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.instance), hit.modifier);
+        mirrored.met = met(walk, hit);
         if (reflects_flat(walk, hit, appearance)) {
             image->slope += ripple_slope(walk, hit, appearance);
             mirrored.pass(hit, true);

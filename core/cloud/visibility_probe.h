@@ -65,6 +65,7 @@ class VisibilityProbe {
     [[nodiscard]] bool goes_on(Walk& walk, const Hit& hit) const;
     [[nodiscard]] bool begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const;
     void follow(std::vector<Walk>& walks, Scratch& scratch) const;
+    [[nodiscard]] std::uint32_t met(const Walk& walk, const Hit& hit) const;
     [[nodiscard]] std::uint32_t background(const Walk& walk) const;
 
     const Tracer& tracer_;

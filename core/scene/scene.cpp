@@ -24,6 +24,7 @@ struct Scene::Impl {
     std::shared_ptr<const Scene> base;  ///< that this is a change of; null: it is none
     std::vector<LoadedModel> models;
     ModifierTable modifiers;
+    SurfaceKeys keys;
     SurfaceTable surfaces;  ///< part i is model i; the last part is the Lambertian surface
     std::vector<std::shared_ptr<const SurfaceShapes>> shapes;                ///< of the parts
     const MadeSurfaces triangles{PrimitiveType::mesh, "M-Tri", kVoidIndex};  ///< of each mesh
@@ -44,6 +45,7 @@ struct Scene::Impl {
         : base(std::move(of)),
           models(changed_models(base->impl_->models, std::move(change.modifiers))),
           modifiers(models),
+          keys(base->impl_->keys),
           shapes(base->impl_->shapes),
           geometry(base, base->impl_->geometry.get()) {}
 
@@ -295,8 +297,9 @@ void Scene::Impl::build_geometry(const TaskRunner& task_runner, const Ablation& 
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
              Resources& resources, WarningSink& warnings, const TaskRunner& task_runner,
-             SceneExtent extent, const Ablation& ablation)
+             SceneExtent extent, const Ablation& ablation, SurfaceKeys keys)
     : impl_(std::make_unique<Impl>(std::move(model), resources, task_runner)) {
+    impl_->keys = std::move(keys);
     impl_->collect_surfaces(warnings, task_runner);
     impl_->use_modifiers();
     impl_->modifiers.compile(modifier_factory, resources, warnings, task_runner);
@@ -334,6 +337,9 @@ const Geometry& Scene::geometry() const {
 }
 const SurfaceTable& Scene::surfaces() const {
     return impl_->surfaces;
+}
+std::uint32_t Scene::surface_key(SurfaceId id) const {
+    return impl_->keys(index(id));
 }
 std::size_t Scene::own_surfaces() const {
     return impl_->models[0].model->surfaces.size();

@@ -9,6 +9,7 @@
 #include "core/math/task_runner.h"
 #include "core/model/model_change.h"
 #include "core/model/resources.h"
+#include "core/model/surface_keys.h"
 #include "core/scene/modifier.h"
 
 namespace lightwalk {
@@ -57,11 +58,12 @@ class Scene {
     /// surfaces, bad used modifiers, missing octrees and meshes, circular instances. A file that a
     /// modifier names and that does not exist is a warning here, and an InputError when a ray needs
     /// it. `model` and what `resources` hands out are kept alive by the scene. `task_runner` runs
-    /// independent parts of the work.
+    /// independent parts of the work. `keys`: of the surfaces, where a walk has known them before.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
           Resources& resources, WarningSink& warnings,
           const TaskRunner& task_runner = SerialTaskRunner(),
-          SceneExtent extent = SceneExtent::whole, const Ablation& ablation = {});
+          SceneExtent extent = SceneExtent::whole, const Ablation& ablation = {},
+          SurfaceKeys keys = {});
     /// The same surfaces under other modifiers and sources: shapes, search tree, meshes, octrees
     /// and whatever of the modifiers is as before are those of `base`, and only the rest is
     /// compiled. Rays find to the bit what they find in Scene(changed_model(...), ...).
@@ -84,6 +86,8 @@ class Scene {
     /// that type; null: these are as they were read.
     [[nodiscard]] const std::vector<SourcePlace>* changed_sources() const;
     [[nodiscard]] Surface surface(SurfaceId id) const { return surfaces()[id]; }
+    /// By which the points of walks know it.
+    [[nodiscard]] std::uint32_t surface_key(SurfaceId id) const;
     [[nodiscard]] const ModifierRecord& modifier(ModifierId id) const;  ///< id != kVoid
     [[nodiscard]] std::size_t modifier_count() const;
     /// As it was read: of a changed scene the base's.

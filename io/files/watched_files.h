@@ -4,13 +4,24 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "io/files/file_source.h"
 
 namespace lightwalk {
 
-/// A decorator of a source that records the state of each file that it is asked for.
+/// A file as far as its date and size tell.
+struct FileState {
+    bool exists = false;
+    std::filesystem::file_time_type written;
+    std::uintmax_t size = 0;
+    friend bool operator==(const FileState&, const FileState&) = default;
+};
+using FileStates = std::map<std::string, FileState>;  ///< by path
+
+/// A decorator of a source that records the state of each file that it is asked for. Callable
+/// from many threads, as far as the source is.
 class WatchedFiles final : public FileSource {
   public:
     explicit WatchedFiles(std::shared_ptr<FileSource> source = real_files())
@@ -23,17 +34,17 @@ class WatchedFiles final : public FileSource {
     /// size.
     [[nodiscard]] bool have_changed() const;
 
-  private:
-    struct State {
-        bool exists = false;
-        std::filesystem::file_time_type written;
-        std::uintmax_t size = 0;
-        friend bool operator==(const State&, const State&) = default;
-    };
-    [[nodiscard]] static State state_of(const std::string& path);
+    /// As they were when they were asked for.
+    [[nodiscard]] FileStates recorded() const;
+    /// As they are now.
+    [[nodiscard]] FileStates now() const;
+    /// Record others as well, those that are not recorded yet.
+    void record(const FileStates& others);
 
+  private:
     std::shared_ptr<FileSource> source_;
-    std::map<std::string, State> files_;
+    mutable std::mutex mutex_;
+    FileStates files_;  ///< under the mutex
 };
 
 }  // namespace lightwalk

@@ -291,6 +291,16 @@ std::string walk_text(const RefusedReply& reply) {
     return text_of(object);
 }
 
+std::string walk_text(const FollowedReply& reply) {
+    Json object{{"type", "followed"},           {"files", reply.files},
+                {"materials", reply.materials}, {"sources", reply.sources},
+                {"surfaces", reply.surfaces},   {"kept", reply.kept},
+                {"problems", reply.problems}};
+    if (!reply.lights.empty()) object["lights"] = reply.lights;
+    if (reply.time) object["time"] = to_json(*reply.time);
+    return text_of(object);
+}
+
 std::string walk_text(const ByeReply& reply) {
     return text_of({{"type", "bye"}, {"reason", reply.reason}});
 }

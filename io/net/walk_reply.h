@@ -157,6 +157,17 @@ struct RefusedReply {
     std::optional<std::uint32_t> id;                   ///< of the question
     std::optional<std::uint32_t> view = std::nullopt;  ///< the id of one that cannot be drawn
 };
+/// `followed`: files of the scene were edited, and what became of it.
+struct FollowedReply {
+    std::vector<std::string> files = {};                   ///< that are others, without folders
+    std::size_t materials = 0, sources = 0, surfaces = 0;  ///< that are others
+    double kept = 0;  ///< share of the points of the frames before that are kept
+    /// "file:line: ...", why all is as it was; empty: it is as the files have it.
+    std::vector<std::string> problems = {};
+    // As LoadedReply has them, where there is no problem.
+    std::vector<std::string> lights = {};
+    std::optional<TimePlace> time = std::nullopt;
+};
 /// `bye`, the last message before the server closes the connection.
 struct ByeReply {
     std::string reason;
@@ -179,6 +190,7 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const ViewReply& reply);
 [[nodiscard]] std::string walk_text(const DisplayReply& reply);
 [[nodiscard]] std::string walk_text(const RefusedReply& reply);
+[[nodiscard]] std::string walk_text(const FollowedReply& reply);
 [[nodiscard]] std::string walk_text(const ByeReply& reply);
 
 }  // namespace lightwalk

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/cloud/shown_materials.h"
@@ -63,16 +64,16 @@ class LiveFrames {
         return mixed();
     }
 
-    /// The scene is another one from here on: of the same surfaces, under other modifiers and
-    /// sources. Frames keep their size and their light, and the points of the frames before are
-    /// outdated. The tracers of before are not used any more.
+    /// The scene is another one from here on: of other modifiers, sources or surfaces. Frames keep
+    /// their size and their light, and the points of the frames before are outdated. The tracers of
+    /// before are not used any more.
     /// @param direct, indirect  as they were given to the constructor
     /// @param groups            null: they are not kept
     void change(const Tracer& direct, const Tracer* indirect,
                 const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings);
 
     /// The next change() outdates only the points that may show these; nothing: all.
-    void outdate_only(std::optional<ShownMaterials> materials) { outdated_ = materials; }
+    void outdate_only(std::optional<ShownMaterials> materials) { outdated_ = std::move(materials); }
     [[nodiscard]] const std::optional<ShownMaterials>& outdated() const { return outdated_; }
     /// Share of the points that the last change() has kept.
     [[nodiscard]] double kept_points() const { return kept_; }

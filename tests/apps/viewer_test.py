@@ -6,6 +6,7 @@
     viewer_test.py page PROGRAM NPM PICTURES
     viewer_test.py time PROGRAM NPM PICTURES
     viewer_test.py compare PROGRAM NPM PICTURES
+    viewer_test.py files PROGRAM NPM PICTURES
 
 fake: the page against a server that draws a room without a renderer, and misbehaves when it is told to. NPM is a folder with node_modules;
 PICTURES gets a screenshot of each step, or of those that fail. Exit status 77: what is needed is not there.
@@ -108,6 +109,44 @@ def compare(node, program, npm, pictures):
     return 1 if wrong else 0
 
 
+EDITED = """void plastic grey 0 0 5 .5 .5 .5 0 0
+void plastic paint 0 0 5 {paint} 0 0
+void light lamp 0 0 3 40 40 40
+grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+paint polygon back 0 0 12  -4 {back} 0  4 {back} 0  4 {back} 3  -4 {back} 3
+lamp polygon light 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
+"""
+
+
+def files(node, program, npm, pictures):
+    """Whether the page reads, after its scene's file was edited, what `lightwalk trace` finds in that file."""
+    if lacking(npm, "playwright-core"):
+        return 77
+    states = [EDITED.format(paint=paint, back=back) for paint, back in ((".5 .5 .5", 6), (".8 .3 .2", 6), (".8 .3 .2", 4))]
+    states[1:1] = [states[0] + "painted sphere ball 0 0 4 0 0 1 .5\n"]  # has an error
+    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1"], states[0]) as server:
+        folder = pathlib.Path(server.folder.name)
+        for k, state in enumerate(states):
+            (folder / f"state{k}.rad").write_text(state)
+        status = subprocess.run([node, VIEWER / "files_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
+                                 "--folder", folder]).returncode
+    if status:
+        return status
+    wrong = 0
+    for read in json.loads((pathlib.Path(pictures) / "read.json").read_text()):
+        way = [place - eye for place, eye in zip(read["position"], read["eye"])]
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "scene.rad"
+            scene.write_text(states[read["state"]])
+            traced = subprocess.run([program, "trace", "-h", "-av", ".1", ".1", ".1", "-dt", ".05", "-dc", ".5", "-ds", ".25", "-dr", "1", scene],
+                                    input=" ".join(map(str, read["eye"] + way)) + "\n", text=True, stdout=subprocess.PIPE, check=True).stdout
+        luminance = 179 * sum(float(value) * weight for value, weight in zip(traced.split(), (0.265106, 0.670106, 0.064788)))
+        print(f"files: in state {read['state']} the page has read {read['luminance']:.2f} cd/m2, trace finds {luminance:.2f} cd/m2, "
+              f"after {read['seconds']:.2f} s, kept {read['kept']:.2f}")
+        wrong += abs(read["luminance"] / luminance - 1) > 0.02
+    return 1 if wrong else 0
+
+
 def isolux(program, scene, files):
     """Trace the points that the page has saved, and compare with its table."""
     told = [float(line.split(",")[3]) for line in (files / "isolux.csv").read_text().splitlines()[1:]]
@@ -167,4 +206,4 @@ if __name__ == "__main__":
     if not node:
         print("skipped: there is no Node.js")
         sys.exit(77)
-    sys.exit({"modules": modules, "fake": fake, "page": page, "time": time, "compare": compare}[sys.argv[1]](node, *sys.argv[2:]))
+    sys.exit({"modules": modules, "fake": fake, "page": page, "time": time, "compare": compare, "files": files}[sys.argv[1]](node, *sys.argv[2:]))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|dimmed|changed|roles|mended|rad_file|returning|slow|abuse|beside|ranks ...]
+    walk_server_test.py PROGRAM [rest|light|dimmed|changed|roles|mended|followed|rad_file|returning|slow|abuse|beside|ranks ...]
 """
 import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -275,11 +275,13 @@ def roles(program):
 
 
 def mended(program, words=(), launcher=()):
-    """A scene that cannot be read says why and where; when it is mended the walk goes on."""
-    with Server(program, words, launcher=launcher) as server:
+    """A scene that cannot be read says why and where; when it is mended the walk begins, or on ranks goes on."""
+    wrong = ROOM + "nothing sphere wrong 0 0 4 0 0 0 1\n"
+    with Server(program, words, ROOM if launcher else wrong, launcher) as server:
         client = Client(server.port)
-        client.enter()
-        server.scene.write_text(ROOM + "nothing sphere wrong 0 0 4 0 0 0 1\n")
+        if launcher:
+            client.enter()
+            server.scene.write_text(wrong)
         failed = client.told("failed")
         assert any("room.rad:9" in line for line in failed["messages"]), failed
         late = Client(server.port, "1111111111111111")
@@ -287,9 +289,55 @@ def mended(program, words=(), launcher=()):
         late.socket.close()
         server.scene.write_text(ROOM.replace("2 2 2 0", "4 4 4 0"))
         client.told("loaded")
+        client.look()
         client.until(lambda m: isinstance(m, Frame))
         picked = client.ask("pick", "picked", x=0.67, y=0.52)
         assert abs(picked["luminance"] - 716) < 0.02 * 716, picked
+
+
+def followed(program):
+    """Files that are edited are followed while the walk goes on: what is wrong is told, and newcomers too, until it is mended."""
+    with Server(program) as server:
+        client = Client(server.port)
+        client.enter()
+        server.scene.write_text(ROOM + "nothing sphere wrong 0 0 4 0 0 0 1\n")
+        told = client.told("followed")
+        assert any("room.rad:9" in line for line in told["problems"]), told
+        client.look(position=[0.1, -4, 1.5])
+        client.until(lambda m: isinstance(m, Frame) and m.view == client.ident)
+        late = Client(server.port, "1111111111111111")
+        assert late.told("followed")["problems"] == told["problems"]
+        late.socket.close()
+        server.scene.write_text(ROOM.replace("2 2 2 0", "4 4 4 0"))
+        told = client.told("followed")
+        assert not told["problems"] and (told["files"], told["materials"], told["surfaces"]) == (["room.rad"], 1, 0), told
+        client.look()
+        client.until(lambda m: isinstance(m, Frame) and m.view == client.ident and m.finished)
+        picked = client.ask("pick", "picked", x=0.67, y=0.52)
+        assert abs(picked["luminance"] - 716) < 0.02 * 716, picked
+    with Server(program, ["--edge-samples", "1"]) as server:
+        client = Client(server.port)
+        client.enter()
+        # A material; then a surface moves, and one comes before all others.
+        red, dot = ROOM.replace(".5 .5 .5", ".6 .2 .1"), "grey sphere dot 0 0 4 2 3 .2 .2\n"
+        for scene in (red, red.replace("-1 2 .7 .7", "-1 2.3 .7 .7").replace("grey polygon floor", dot + "grey polygon floor")):
+            server.scene.write_text(scene)
+            assert client.told("followed")["problems"] == []
+            client.look(direction=[0.1, 1, 0])
+            client.look()
+            client.until(lambda m: isinstance(m, Frame) and m.view == client.ident and m.finished)
+            saved = server.get("/save/picture.hdr")
+            rendered = subprocess.run([program, "render", "-ps", "1", "-pa", "0", "-x", str(SIZE[0]), "-y", str(SIZE[1]), *WORDS.split(), server.scene],
+                                      stdout=subprocess.PIPE, check=True).stdout
+            assert saved.split(b"\n\n", 1)[1] == rendered.split(b"\n\n", 1)[1], "the pictures differ"
+    with Server(program, ["--watch", "off"]) as server:
+        client = Client(server.port)
+        client.enter()
+        server.scene.write_text(ROOM.replace("2 2 2 0", "4 4 4 0"))
+        time.sleep(1.5)
+        picked = client.ask("pick", "picked", x=0.67, y=0.52)
+        assert abs(picked["luminance"] - 358) < 0.02 * 358, picked
+        assert not any(m["type"] == "followed" for m in client.messages)
 
 
 def rad_file(program, words=(), launcher=()):
@@ -458,7 +506,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, dimmed, changed, roles, mended, rad_file, returning, slow, abuse, beside, ranks)}
+CASES = {case.__name__: case for case in (rest, light, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

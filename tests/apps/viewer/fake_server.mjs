@@ -4,7 +4,7 @@
 //
 // FOLDER has node_modules with ws and jpeg-js. GET /fake/NAME makes it misbehave: fail (the scene
 // cannot be read), reload, drop (breaks connections), dumb and speak (no frames meanwhile), refuse, join
-// and leave (another driver). The answer is how many plans were asked for.
+// and leave (another driver), edit, spoil and mend (files of the scene). The answer is how many plans were asked for.
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -81,6 +81,18 @@ const kLoaded = {
     },
 };
 
+const kFollowed = {
+    type: "followed",
+    files: [],
+    materials: 0,
+    sources: 0,
+    surfaces: 0,
+    kept: 0,
+    problems: [],
+    lights: kLoaded.lights,
+    time: kLoaded.time,
+};
+
 // The walk --------------------------------------------------------------------------------------
 
 let display = {
@@ -94,7 +106,8 @@ let lights = { type: "lights", levels: [] };
 let edited = null; // the newest answer to `edits`
 let time = { type: "time", time: null, moving: false };
 let probes = [];
-let failing = false,
+let spoiled = null, // what is wrong with edited files
+    failing = false,
     dumb = false, // no frames
     guest = null, // a client that is not there
     plans = 0, // how many were asked for
@@ -142,6 +155,7 @@ function greet(socket, client, session) {
         tell(socket, { type: "loading", text, share: k / 2 });
     setTimeout(() => {
         tell(socket, kLoaded);
+        if (spoiled) tell(socket, spoiled);
         tell(socket, lights);
         if (edited) tell(socket, edited);
         tell(socket, time_reply());
@@ -399,6 +413,17 @@ const pranks = {
     },
     alone: () => tell_all({ ...kLoaded, beside: { refused: "many processes draw this walk" } }),
     drop_beside: () => beside.socket?.terminate(),
+    edit: () =>
+        tell_all({ ...kFollowed, files: ["room.rad"], materials: 2, surfaces: 1, kept: 0.8 }),
+    spoil: () =>
+        tell_all(
+            (spoiled = {
+                ...kFollowed,
+                files: ["room.rad"],
+                problems: ['room.rad:12: undefined modifier "lampe", did you mean "lamp"?'],
+            }),
+        ),
+    mend: () => ((spoiled = null), tell_all(kFollowed)),
     dumb: () => (dumb = true),
     speak: () => (dumb = false),
     refuse: () =>

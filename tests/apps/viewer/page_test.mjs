@@ -30,6 +30,7 @@ import {
     value,
 } from "./page_helpers.mjs";
 import { camera_steps } from "./page_camera.mjs";
+import { file_steps } from "./page_files.mjs";
 import { isolux_steps } from "./page_isolux.mjs";
 import { lamp_steps } from "./page_lamps.mjs";
 import { material_steps } from "./page_materials.mjs";
@@ -85,6 +86,7 @@ const steps = {
     ...lamp_steps(address),
     ...material_steps(address, args.npm),
     ...time_steps(address),
+    ...file_steps(prank, args.npm),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);

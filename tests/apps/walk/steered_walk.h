@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/session/lightwalk/renderer.h"
+#include "apps/session/local_backend.h"
 #include "apps/session/render_backend.h"
 #include "apps/walk/render_loop.h"
 #include "apps/walk/scene_changer.h"
@@ -52,7 +53,10 @@ struct Walk {
     /// @param changes  whether its scene may be changed
     Walk(const LoadedScene& scene, const RendererOptions& renderer_options, double rate = 30,
          bool changes = true)
-        : renderer(scene, renderer_options) {
+        : Walk(scene.compiled(), renderer_options, rate, changes) {}
+    Walk(const std::shared_ptr<const CompiledScene>& scene, const RendererOptions& renderer_options,
+         double rate = 30, bool changes = true)
+        : renderer(std::make_unique<LocalBackend>(scene, renderer_options)) {
         inbox.attach(clients);
         for (const ClientId client : {kDriver, kWatcher})
             inbox.message(client,
@@ -60,7 +64,10 @@ struct Walk {
         View home;
         home.position = {0, -4, 1.5};
         RenderLoopOptions options{rate, 1, "lightwalk walk"};
-        if (changes) options.change = scene_changer(renderer.backend());
+        if (changes) {
+            options.change = scene_changer(renderer.backend());
+            options.replace = scene_replacer(renderer.backend());
+        }
         loop.emplace(std::move(options), renderer.backend().session(), home,
                      renderer.backend().frames(), *executor, warnings, inbox, screen);
     }
