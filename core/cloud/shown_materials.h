@@ -4,8 +4,8 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
-#include <span>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
