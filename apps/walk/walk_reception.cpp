@@ -69,6 +69,7 @@ void WalkReception::message(ClientId client, std::string_view text) {
 }
 
 void WalkReception::admit(ClientId client, std::string_view text, const std::string& session) {
+    std::shared_ptr<ClientInbox> made;  // whoever drives may send it away at any time
     {
         const std::lock_guard lock(mutex_);
         if (!refusal_.empty()) throw InputError(refusal_);
@@ -82,12 +83,12 @@ void WalkReception::admit(ClientId client, std::string_view text, const std::str
             start.edits = {};
             start.time = {};
         }
-        beside_ = std::make_shared<ClientInbox>(welcome_, std::move(start));
-        beside_->attach(*sender_);
+        made = beside_ = std::make_shared<ClientInbox>(welcome_, std::move(start));
+        made->attach(*sender_);
         client_ = client;
         session_ = session;
     }
-    inbox_of(client)->message(client, text);
+    made->message(client, text);
     walk_.wake();
 }
 
