@@ -66,7 +66,8 @@ std::array<std::uint8_t, 3> difference_colour_at(double place) {
 }
 
 std::array<std::uint8_t, 3> difference_colour(float before, float now) {
-    if (before > 0 && now > 0) return ratio_colours()[ratio_index(now / before)];
+    const float ratio = now / before;
+    if (before > 0 && now > 0 && !std::isnan(ratio)) return ratio_colours()[ratio_index(ratio)];
     return difference_colour_at(difference_place(before, now));
 }
 

@@ -33,6 +33,7 @@ TEST_CASE("difference: black, infinite and undefined values have their place") {
         for (const float b : {0.f, 1.f, kInfinity, none, -1.f}) (void)difference_colour(a, b);
     CHECK(difference_colour(0, 1) == difference_colour_at(1));
     CHECK(difference_colour(1, kInfinity) == difference_colour_at(1));
+    CHECK(difference_colour(kInfinity, kInfinity) == difference_colour_at(0));
 }
 
 TEST_CASE("difference: colours are those of the places, to the table's step, grey for none") {
