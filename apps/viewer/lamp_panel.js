@@ -49,6 +49,7 @@ export class LampPanel {
         if (this.waiting_) this.tell();
         const { lamps, touched, told_ } = this;
         Object.assign(this, other ?? { lamps: [], touched: false, told_: [] });
+        by_id("lamps-preset").value = "";
         this.show_();
         return { lamps, touched, told_ };
     }
@@ -114,7 +115,6 @@ export class LampPanel {
         const some = this.lamps.length > 0;
         by_id("lamps-hint").hidden = some;
         by_id("lamps-tools").hidden = !some;
-        by_id("lamps-preset").value = "";
         by_id("lamps").replaceChildren(...this.lamps.map((lamp, index) => this.row_(lamp, index)));
         this.lamps.forEach((_, index) => this.show_values_(index));
         this.drive();

@@ -174,7 +174,7 @@ export class Reprojection {
     }
 
     /** Draw what `view` shows, width x height pixels; of these the part between two shares of the width. */
-    draw(view, width, height, [from, to]) {
+    draw(view, width, height, [from, to] = [0, 1]) {
         const { gl_: gl, canvas } = this;
         if (canvas.width !== width || canvas.height !== height) {
             canvas.width = width;
