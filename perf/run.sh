@@ -10,6 +10,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 if [ "$(id -u)" -eq 0 ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
+export PMIX_MCA_gds=hash  # no memory shared with mpirun, whose lock a killed rank might hold
 case " $* " in
 *" --lightwalk "* | *" --lightwalk="* | *" --help "* | *" -h "*) ;;
 *)

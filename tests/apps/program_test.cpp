@@ -152,10 +152,12 @@ std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std:
     // Several at once in one folder for their sockets may take each other's away as they end
     // (open-mpi/ompi issue 8510).
     static const TemporaryFolder sockets;
-    // Root must say that it means it; what MPI leaves behind at its end is not ours.
+    // Root must say that it means it; a killed rank may hold a lock of the memory that PMIx shares
+    // with mpirun, which waits for it for ever; what MPI leaves behind at its end is not ours.
     std::vector<std::string> line{"env",
                                   "OMPI_ALLOW_RUN_AS_ROOT=1",
                                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                  "PMIX_MCA_gds=hash",
                                   "ASAN_OPTIONS=detect_leaks=0:handle_sigill=1",
                                   "mpirun",
                                   "--oversubscribe",

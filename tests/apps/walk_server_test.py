@@ -473,7 +473,7 @@ def ranks(program):
     if not shutil.which("mpirun"):
         print("skipped: no mpirun here")
         sys.exit(77)
-    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0:handle_sigill=1")
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", PMIX_MCA_gds="hash", ASAN_OPTIONS="detect_leaks=0:handle_sigill=1")
     sockets = tempfile.TemporaryDirectory()  # its own: others' runs of MPI may take a common one away (open-mpi/ompi issue 8510)
     mpirun = ["mpirun", "--mca", "orte_tmpdir_base", sockets.name, "--oversubscribe", "--bind-to", "none", "-n"]
     rest(program, ["--variant", "ranks"], [*mpirun, "3"])
