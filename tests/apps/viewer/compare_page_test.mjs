@@ -163,7 +163,9 @@ const steps = {
             await box.press("Enter");
         }
         await wait(() => document.querySelector("#side-b").textContent.includes("1 material"));
+        await page.focus("#picture"); // the panel's rows are made anew, and the focus goes with them
         await page.keyboard.press("Escape");
+        await wait(() => document.querySelector("#panel-materials").hidden);
         await both_final();
         await read("B", 10, kGreen, 0.8, 0.8);
         await read("A", 17, kGrey, 0.2, 0.8);
