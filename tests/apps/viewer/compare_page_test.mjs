@@ -154,6 +154,7 @@ const steps = {
     async "a surface that is clicked on the right changes there"() {
         await page.focus("#picture");
         await page.keyboard.press("y");
+        await page.waitForTimeout(500); // else it may be the second one of a double click
         await page.mouse.click(0.8 * width, 0.8 * height);
         await page.waitForSelector("#material-layers .layer");
         assert.equal(await page.isChecked("[name=side][value=B]"), true);
