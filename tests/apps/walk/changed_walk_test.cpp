@@ -13,17 +13,6 @@ using namespace lightwalk::test;
 
 namespace {
 
-std::string sunlit(const std::string& hour, const std::string& colour = ".5 .5 .5") {
-    return "!gensky 9 21 " + hour + " +s -a 46 -o -7 -m -15\n" + R"(
-skyfunc glow sky_glow 0 0 4 1 1 1 0
-sky_glow source sky 0 0 4 0 0 1 180
-void plastic grey 0 0 5 )" +
-           colour + R"( 0 0
-grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
-grey sphere ball 0 0 4 -1 2 .7 .7
-)";
-}
-
 const std::string kPins =
     R"({"type":"probes","probes":[{"id":3,"position":[2,2,0],"normal":[0,0,1]}]})";
 

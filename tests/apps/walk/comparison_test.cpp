@@ -20,17 +20,6 @@ namespace {
 constexpr ClientId kBeside{7}, kStranger{8};
 const std::string kDriversSession = "0123456789abcde1", kWatchersSession = "0123456789abcde2";
 
-std::string sunlit_at(const std::string& hour, const std::string& colour = ".5 .5 .5") {
-    return "!gensky 9 21 " + hour + " +s -a 46 -o -7 -m -15\n" + R"(
-skyfunc glow sky_glow 0 0 4 1 1 1 0
-sky_glow source sky 0 0 4 0 0 1 180
-void plastic grey 0 0 5 )" +
-           colour + R"( 0 0
-grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
-grey sphere ball 0 0 4 -1 2 .7 .7
-)";
-}
-
 std::string hour_message(const std::string& hour) {
     return R"({"type":"time","time":{"month":9,"day":21,"hour":)" + hour +
            R"(,"sky":""},"moving":false})";
@@ -131,7 +120,7 @@ std::vector<Rgb> picture_of_scene(const std::string& text) {
 }  // namespace
 
 TEST_CASE("comparison: the scene beside begins as the walk's is, and its changes are its own") {
-    const LoadedScene scene(room(sunlit_at("14.3")));
+    const LoadedScene scene(room(sunlit("14.3")));
     ComparedWalk both(scene);
     both.walk.inbox.message(kDriver, hour_message("9.5"));
     both.settle_anew();
@@ -146,14 +135,14 @@ TEST_CASE("comparison: the scene beside begins as the walk's is, and its changes
     both.reception.message(kBeside, green_message(3));
     both.settle_anew();
     CHECK(both.of_a() == before);
-    CHECK(both.of_b() == picture_of_scene(sunlit_at("12", ".2 .6 .3")));
+    CHECK(both.of_b() == picture_of_scene(sunlit("12", ".2 .6 .3")));
     CHECK(both.saved("/save/beside/sky.rad").find("gensky 9 21 12.0000") != std::string::npos);
     CHECK(both.saved("/save/beside/materials.rad").find("grey") != std::string::npos);
     CHECK(both.saved("/save/materials.rad").find("grey") == std::string::npos);
 }
 
 TEST_CASE("comparison: it goes where the walk goes, and looks as it does") {
-    const LoadedScene scene(room(sunlit_at("14.3")));
+    const LoadedScene scene(room(sunlit("14.3")));
     ComparedWalk both(scene);
     both.compare();
     both.reception.message(kBeside, view_message(9, 3));  // not for it to say
@@ -175,7 +164,7 @@ TEST_CASE("comparison: it goes where the walk goes, and looks as it does") {
 }
 
 TEST_CASE("comparison: it is there for who drives, once, and while that one drives") {
-    const LoadedScene scene(room(sunlit_at("14.3")));
+    const LoadedScene scene(room(sunlit("14.3")));
     ComparedWalk both(scene);
     CHECK_THROWS_AS(both.reception.message(kStranger, hello_beside(kWatchersSession)), InputError);
     CHECK_FALSE(both.reception.beside());
@@ -201,7 +190,7 @@ TEST_CASE("comparison: it is there for who drives, once, and while that one driv
 }
 
 TEST_CASE("comparison: who leaves it leaves the walk as it was") {
-    const LoadedScene scene(room(sunlit_at("14.3")));
+    const LoadedScene scene(room(sunlit("14.3")));
     ComparedWalk both(scene);
     const std::vector<Rgb> before = both.of_a();
     for (int i = 0; i < 3; ++i) {
@@ -221,12 +210,12 @@ TEST_CASE("comparison: who leaves it leaves the walk as it was") {
 
 TEST_CASE(
     "comparison: another scene is seen from the same eye, and what is wrong with it is told") {
-    const LoadedScene scene(room(sunlit_at("14.3")));
-    ComparedWalk both(scene, sunlit_at("9.5", ".7 .2 .2"));
+    const LoadedScene scene(room(sunlit("14.3")));
+    ComparedWalk both(scene, sunlit("9.5", ".7 .2 .2"));
     both.walk.inbox.message(kDriver, green_message(1));  // which is not for the other one
     both.settle_anew();
     both.compare();
-    CHECK(both.of_b() == picture_of_scene(sunlit_at("9.5", ".7 .2 .2")));
+    CHECK(both.of_b() == picture_of_scene(sunlit("9.5", ".7 .2 .2")));
     ComparedWalk wrong(scene, "void nonsense x 0 0 0\n");
     wrong.reception.message(kBeside, hello_beside());
     for (int i = 0; i < 500 && !wrong.walk.clients.got(kBeside, "failed"); ++i) {
@@ -240,7 +229,7 @@ TEST_CASE(
 }
 
 TEST_CASE("comparison: while the eye moves both are drawn") {
-    const LoadedScene scene(room(sunlit_at("14.3")));
+    const LoadedScene scene(room(sunlit("14.3")));
     ComparedWalk both(scene);
     both.compare();
     const std::size_t a = both.walk.clients.frames_of(kDriver),

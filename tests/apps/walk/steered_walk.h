@@ -107,4 +107,16 @@ struct Walk {
     StopFlag stop;
 };
 
+/// A floor and a ball under the sky of an hour of the 21st of September.
+inline std::string sunlit(const std::string& hour, const std::string& colour = ".5 .5 .5") {
+    return "!gensky 9 21 " + hour + " +s -a 46 -o -7 -m -15\n" + R"(
+skyfunc glow sky_glow 0 0 4 1 1 1 0
+sky_glow source sky 0 0 4 0 0 1 180
+void plastic grey 0 0 5 )" +
+           colour + R"( 0 0
+grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+grey sphere ball 0 0 4 -1 2 .7 .7
+)";
+}
+
 }  // namespace lightwalk::test
