@@ -53,6 +53,13 @@ def page_view(view):
             "horizontal": view["-vh"][0], "vertical": view["-vv"][0]}
 
 
+def view_of(place, client, size):
+    """Where a walk begins, as the page says it, and its pace: eyes are as high as a person's, whatever the scene's unit is."""
+    view = page_view(views.parse((place.program.scene.folder / place.file).read_text()))
+    vertical = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
+    return {**view, "vertical": vertical, "pace": client.loaded["eye_height"] / 1.6}
+
+
 def turned(view, degrees):
     angle, (x, y, z) = math.radians(degrees), view["direction"]
     return {**view, "direction": [x * math.cos(angle) + y * math.sin(angle), y * math.cos(angle) - x * math.sin(angle), z]}
@@ -288,10 +295,7 @@ def main():
                 client = Client(port_behind(server.port, args), size, args.plain)
                 while client.loaded is None:
                     client.listen(time.monotonic() + 0.1)
-                words = (place.program.scene.folder / place.file).read_text()
-                # Eyes are as high as a person's, whatever the scene's unit is.
-                view = {**page_view(views.parse(words)), "pace": client.loaded["eye_height"] / 1.6}
-                view["vertical"] = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
+                view = view_of(place, client, size)
                 others = {"dim": measure_dimming if client.loaded.get("lights") else None,
                           "hours": measure_hours if "refused" not in (client.loaded.get("time") or {"refused": ""}) else None}
                 if others["hours"] and "-ab" in args.options:

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Measure how Lightwalk scales over ranks and threads, and what walks reuse. Writes JSON and SVG into a folder.
 # Usage: perf/run.sh NAME [--scenes DIR] [--lightwalk PROGRAM] [--out DIR] [--size N] [--runs N] [--cores N] [--frames N]
-# NAME: table1, splits, speedup, stride, ambient-exchange, accuracy, model, same-bytes, kills, many-ranks, walk-model, table2, walkfilm, walk, scene,
-# bsdf, ablation;
+# NAME: table1, splits, speedup, stride, ambient-exchange, accuracy, model, same-bytes, kills, many-ranks, walk-model, table2, walkfilm, walk, changes,
+# scene, bsdf, ablation;
 # README.md beside this file tells what they are.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -23,6 +23,7 @@ python=/usr/bin/python3
 [ -x "$python" ] || python=python3
 case "${1:-}" in
 walk) script=live_walk.py ;;
+changes) script=live_changes.py ;;
 scene) script=scene_bench.py ;;
 bsdf) script=bsdf_bench.py ;;
 ablation) script=ablation.py ;;

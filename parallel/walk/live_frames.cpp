@@ -144,6 +144,18 @@ void LiveFrames::change(const Tracer& direct, const Tracer* indirect,
     kept_ = outdate(only ? &*only : nullptr);
 }
 
+ViewDraft LiveFrames::draft(const View& view, double seconds, const StopFlag& stop) {
+    if (options_.whole().pixels() * cloud_.light_groups > kMostDraftedValues) return {};
+    if (!draft_) {
+        draft_ = std::make_unique<FirstLight>(indirect_->tracer, direct_->tracer, light_groups(),
+                                              executor_.concurrency());
+        draft_->mix(mixture_);
+    }
+    const ViewDraft made = draft_->step(view, options_, seconds, executor_, stop);
+    rays_ = draft_->rays();
+    return made;
+}
+
 /// Points show another light: there is nothing to be told by them.
 double LocalFrames::outdate(const ShownMaterials* only) {
     if (only != nullptr && frames_) return frames_->drop(*only);
@@ -185,18 +197,6 @@ TracedValues LocalFrames::trace(const View& view, const ProgressiveWork& work, d
                                        options_, work, seconds, executor_, stop, mixture_);
     rays_ = indirect_->contexts.rays().total();
     return values;
-}
-
-ViewDraft LocalFrames::draft(const View& view, double seconds, const StopFlag& stop) {
-    if (options_.whole().pixels() * cloud_.light_groups > kMostDraftedValues) return {};
-    if (!draft_) {
-        draft_ = std::make_unique<FirstLight>(indirect_->tracer, direct_->tracer, light_groups(),
-                                              executor_.concurrency());
-        draft_->mix(mixture_);
-    }
-    const ViewDraft made = draft_->step(view, options_, seconds, executor_, stop);
-    rays_ = draft_->rays();
-    return made;
 }
 
 }  // namespace lightwalk

@@ -110,12 +110,10 @@ class LiveFrames {
     [[nodiscard]] virtual TracedValues trace(const View& view, const ProgressiveWork& work,
                                              double seconds, const StopFlag& stop) = 0;
     /// A draft of what indirect light adds to the pixels of a view, in pictures of this size; it is
-    /// there until that of another one is asked for.
+    /// there until that of another one is asked for. By the executor alone, wherever frames are
+    /// drawn: it is small, and its rough values are of use to no other picture.
     /// @param seconds  of work at it
-    [[nodiscard]] virtual ViewDraft draft(const View& /*view*/, double /*seconds*/,
-                                          const StopFlag& /*stop*/) {
-        return {};
-    }
+    [[nodiscard]] ViewDraft draft(const View& view, double seconds, const StopFlag& stop);
     /// See draw_small_sources(); by all light there is.
     /// @param indirect  false: by the light of the frames
     void add_small_sources(const View& view, Frame& frame, bool indirect = true);
@@ -177,7 +175,6 @@ class LocalFrames final : public LiveFrames {
     }
     [[nodiscard]] TracedValues trace(const View& view, const ProgressiveWork& work, double seconds,
                                      const StopFlag& stop) override;
-    [[nodiscard]] ViewDraft draft(const View& view, double seconds, const StopFlag& stop) override;
 
   private:
     double outdate(const ShownMaterials* only) override;

@@ -245,11 +245,16 @@ TEST_CASE("ranks: scenes follow each other, and one that cannot be read ends not
 
 namespace {
 
-/// A view at rest.
-std::vector<Rgb> picture_at_rest(LiveWalk& walk) {
+/// A view at rest. @param drafted  counts if a draft of indirect light was shown before
+std::vector<Rgb> picture_at_rest(LiveWalk& walk, int& drafted) {
     const StopFlag never;
+    bool draft = false;
     for (int i = 0; i < 1000; ++i) {
         REQUIRE(walk.next(task_at(.2).view, 40, 30, WalkAmbient::rest, .05, never));
+        if (!draft && walk.picture().inferred == 1) {
+            draft = true;
+            ++drafted;
+        }
         if (walk.picture().phase == WalkPhase::done) return walk.picture().radiance;
     }
     FAIL("the view does not come to rest");
@@ -276,16 +281,16 @@ ModelChange edited(const Model& model, const std::string& name, std::vector<doub
 const std::vector<double> kGreen{.1, .7, .3, .02, .1}, kOff{0, 0, 0};
 
 /// The pictures at rest of a scene as it was read, and with other materials, one after the other.
-Pictures changed_pictures(Renderer& renderer) {
+Pictures changed_pictures(Renderer& renderer, int& drafted) {
     RenderBackend& backend = renderer.backend();
     const Model& model = backend.session().compiled().model();
     LiveWalk walk(backend.frames(), 1);
-    Pictures pictures{picture_at_rest(walk)};
+    Pictures pictures{picture_at_rest(walk, drafted)};
     for (const ModelChange& change :
          {edited(model, "grey", kGreen), edited(model, "lamp", kOff), unchanged(model)}) {
         backend.change_model(change);
         walk.look_anew();
-        pictures.push_back(picture_at_rest(walk));
+        pictures.push_back(picture_at_rest(walk, drafted));
     }
     return pictures;
 }
@@ -314,16 +319,20 @@ TEST_CASE("ranks: the scene of a walk changes on all of them, and back") {
         options.light_groups.emplace();
     }
     Renderer alone(LoadedScene(source), options);
-    const Pictures expected = changed_pictures(alone);
+    int drafted = 0;
+    const Pictures expected = changed_pictures(alone, drafted);
+    CHECK(drafted == (options.light.ambient_bounces > 0 ? 4 : 0));
     CHECK_FALSE(expected[0] == expected[1]);
     for (const Company& company : companies()) {
         CAPTURE(company.ranks);
         Pictures together;
+        int drafts = 0;
         CHECK(all_well(on_ranks(company, options, [&](Ranks& ranks, const RendererOptions& own) {
             Renderer renderer = ranks.open({source, own, {}, {}, {}});
-            renderer.run([&] { together = changed_pictures(renderer); });
+            renderer.run([&] { together = changed_pictures(renderer, drafts); });
             if (ranks.leads()) CHECK(renderer.backend().statistics().rays.primary > 4 * 40 * 30);
         })));
+        CHECK(drafts == drafted);
         REQUIRE(together.size() == expected.size());
         // Values that are cached depend on which rank was first; but without lamps only one
         // of a scene before could bring anything.
@@ -370,6 +379,7 @@ spotted sphere other 0 0 4 2 2 .7 .7
             CAPTURE(leader);
             std::string problem;
             Pictures pictures;
+            int drafts = 0;
             CHECK(all_well(
                 on_ranks(own_files, options, [&](Ranks& ranks, const RendererOptions& own) {
                     RendererRequest request{source, own, {}, {}, {}};
@@ -379,14 +389,14 @@ spotted sphere other 0 0 4 2 2 .7 .7
                     renderer.run([&] {
                         RenderBackend& backend = renderer.backend();
                         LiveWalk walk(backend.frames(), 1);
-                        pictures.push_back(picture_at_rest(walk));
+                        pictures.push_back(picture_at_rest(walk, drafts));
                         try {
                             backend.change_model(spotted(backend.session().compiled().model()));
                         } catch (const InputError& error) {
                             problem = error.what();
                         }
                         walk.look_anew();
-                        pictures.push_back(picture_at_rest(walk));
+                        pictures.push_back(picture_at_rest(walk, drafts));
                     });
                 })));
             CHECK(problem.find("the disk of this rank is broken") != std::string::npos);

@@ -14,15 +14,18 @@ export const shown = (page) =>
 export const gone = (a, b) => Math.hypot(...a.position.map((x, k) => x - b.position[k]));
 export const heading = ({ direction: [x, y] }) => (Math.atan2(x, y) * 180) / Math.PI;
 
-/** Press a key for a while, and until the view differs: a busy machine draws few refreshes. How far the eye went [m]. */
+/**
+ * Press a key for a while, and until the eye is elsewhere: a busy machine draws few refreshes, and the views that are sent in
+ * motion run ahead of the eye. How far the eye went [m].
+ */
 export async function hold(page, key, ms = 400) {
-    const before = await value(page, "view");
+    const before = await value(page, "eye");
     await page.keyboard.down(key);
     await page.waitForTimeout(ms);
     await until(
         page,
         ([x, y]) => {
-            const { position, direction } = window.lightwalk.view;
+            const { position, direction } = window.lightwalk.eye;
             const apart = (a, b) => Math.hypot(...a.map((value, k) => value - b[k]));
             return apart(position, x) > 0.25 || apart(direction, y) > 0.1;
         },
@@ -30,7 +33,7 @@ export async function hold(page, key, ms = 400) {
     );
     await page.keyboard.up(key);
     await shown(page);
-    return gone(before, await value(page, "view"));
+    return gone(before, await value(page, "eye"));
 }
 
 /** How fast the eye goes at most while keys are held [m/s], by the refreshes' own clock. */
@@ -42,7 +45,7 @@ export async function speed_of(page, keys) {
                 const speeds = [];
                 let last = null;
                 const look = (time) => {
-                    const [x, y] = window.lightwalk.view.position;
+                    const [x, y] = window.lightwalk.eye.position;
                     if (last && time > last.time)
                         speeds.push(
                             (1000 * Math.hypot(x - last.x, y - last.y)) / (time - last.time),

@@ -83,16 +83,19 @@ function turn_between(a, b) {
         Math.sqrt(dot(a.direction, a.direction) * dot(b.direction, b.direction));
     return (Math.acos(Math.min(1, cosine)) * 180) / Math.PI;
 }
-/** Hold a key until the eye has gone so far, however few frames a busy machine draws meanwhile. */
+/**
+ * Hold a key until the eye has gone so far, however few frames a busy machine draws meanwhile. The views that are sent in motion
+ * run ahead of the eye, the farther the slower frames come.
+ */
 async function hold(page, key, { metres = 0, degrees = 0 }) {
-    const { view } = await counters(page, "view");
+    const { eye: before } = await counters(page, "eye");
     await page.keyboard.down(key);
     const deadline = Date.now() + kPatience;
-    let now = view;
-    while (distance_between(view, now) < metres || turn_between(view, now) < degrees) {
+    let now = before;
+    while (distance_between(before, now) < metres || turn_between(before, now) < degrees) {
         assert.ok(Date.now() < deadline, `${key} does not move the eye`);
         await page.waitForTimeout(50);
-        now = (await counters(page, "view")).view;
+        now = (await counters(page, "eye")).eye;
     }
     await page.keyboard.up(key);
     await shown(page);
