@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/cloud/gaps.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 /// Neighbours whose difference is a larger share of the brighter one form an edge.
 constexpr float kSteep = 0.1f;
+constexpr std::size_t kLeastPart = 16;  // of the pixels at edges so many-th part is worth a pass
 
 bool is_step(const Rgb& a, const Rgb& b) {
     const float x = brightness(a), y = brightness(b);
@@ -42,7 +44,7 @@ bool ProgressivePicture::finished() const {
     const auto is_open = [](const PixelOrigin& pixel) {
         return pixel.kind != PixelOrigin::Kind::traced;
     };
-    return std::none_of(origins_.begin(), origins_.end(), is_open) && steep(1).places.empty();
+    return std::none_of(origins_.begin(), origins_.end(), is_open) && !has_steep();
 }
 
 std::size_t ProgressivePicture::open_pixels() const {
@@ -109,21 +111,33 @@ bool ProgressivePicture::is_steep(int x, int y) const {
            (y + 1 < height_ && is_step(own, radiance_[at(x, y + 1)]));
 }
 
-/// The pixels at edges that have the fewest rays.
+bool ProgressivePicture::has_steep() const {
+    for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x)
+            if (origins_[at(x, y)].samples < most_samples_ && is_steep(x, y)) return true;
+    return false;
+}
+
+/// Of the pixels at edges those that have the fewest rays, if they are not too few: what is chosen
+/// takes a pass over the picture, and new edges come up in ones and twos as others get blurred.
 ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
-    ProgressiveWork work;
-    work.sample = most_samples_;
+    std::vector<std::vector<PixelPlace>> by_samples(static_cast<std::size_t>(most_samples_));
+    std::size_t all = 0;
     for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
             const int samples = origins_[at(x, y)].samples;
-            if (samples > work.sample || samples >= most_samples_ || !is_steep(x, y)) continue;
-            if (samples < work.sample) work.places.clear();
-            work.sample = samples;
-            work.places.push_back({x, y});
+            if (samples >= most_samples_ || !is_steep(x, y)) continue;
+            by_samples[static_cast<std::size_t>(samples)].push_back({x, y});
+            ++all;
         }
     }
-    if (work.places.size() > most) work.places.resize(most);
-    return work;
+    if (all == 0) return {most_samples_, {}};
+    const auto size = [](const std::vector<PixelPlace>& places) { return places.size(); };
+    auto chosen = std::ranges::find_if(
+        by_samples, [&](std::size_t count) { return count * kLeastPart >= all; }, size);
+    if (chosen == by_samples.end()) chosen = std::ranges::max_element(by_samples, {}, size);
+    if (chosen->size() > most) chosen->resize(most);
+    return {static_cast<int>(chosen - by_samples.begin()), std::move(*chosen)};
 }
 
 void ProgressivePicture::record(const ProgressiveWork& work,

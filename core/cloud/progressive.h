@@ -70,8 +70,8 @@ class ProgressivePicture {
 
     /// The next pixels to trace, at most `most`: first interpolated ones (coarse grids first), then
     /// guessed ones, then reused ones (oldest points first), then further rays, one at a time, for
-    /// pixels that differ by more than a tenth from a neighbour. Empty when the picture is
-    /// finished.
+    /// pixels that differ by more than a tenth from a neighbour: those with the fewest rays first,
+    /// unless they are few. Empty when the picture is finished.
     [[nodiscard]] ProgressiveWork next(std::size_t most) const;
     /// Whether next() has nothing any more.
     [[nodiscard]] bool finished() const;
@@ -104,6 +104,7 @@ class ProgressivePicture {
   private:
     [[nodiscard]] ProgressiveWork open(std::size_t most) const;
     [[nodiscard]] ProgressiveWork steep(std::size_t most) const;
+    [[nodiscard]] bool has_steep() const;
     [[nodiscard]] bool is_steep(int x, int y) const;
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +

@@ -1,12 +1,14 @@
 #include "parallel/walk/live_walk.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace lightwalk {
 namespace {
 
-// Of the pixels, to be chosen for the first step at rest; twice what was traced for each next one.
+// Of the pixels, to be chosen for the first step at rest; twice as many for each next one, as far
+// as there is time to trace them.
 constexpr double kFirstShare = 0.02, kLeastShare = 0.001;
 
 /// Light is nowhere less than none.
@@ -72,8 +74,10 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
 }
 
 bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag& stop) {
+    const auto begin = std::chrono::steady_clock::now();
     WalkFrame drawn = frames_.draw(view, budget, refine_, stop);
     if (!drawn.frame.complete) return false;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     picture_.width = width_;
     picture_.height = height_;
     picture_.radiance = std::move(drawn.frame.radiance);
@@ -87,7 +91,9 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     const auto pixels = static_cast<double>(picture_.radiance.size());
     const auto traced = static_cast<double>(
         picture_.report.uncached[static_cast<std::size_t>(TraceCause::refined)]);
-    refine_ = std::clamp(2 * traced / pixels, kLeastShare, 1.0);
+    // Few may have been traced only because no more were to be, as edges at the end.
+    const double share = took.count() < budget ? 2 * refine_ : 2 * traced / pixels;
+    refine_ = std::clamp(share, kLeastShare, 1.0);
     const ProgressivePicture* progressive = frames_.progressive(stop);
     const std::size_t open = progressive != nullptr ? progressive->open_pixels() : 0;
     picture_.share = 1 - static_cast<double>(open) / pixels;

@@ -78,3 +78,26 @@ TEST_CASE("progressive view: at steps pixels get further rays, and show their me
     for (const PixelOrigin& origin : picture.origins())
         CHECK(origin.samples <= ProgressivePicture::kMostSamples);
 }
+
+TEST_CASE("progressive view: edges that few rays have shown do not hold up the others") {
+    // Bars of two pixels, all of them edges; the first one has fewer rays.
+    constexpr int kBars = 64;
+    std::vector<float> greys;
+    std::vector<PixelOrigin> origins(2 * kBars, {Kind::traced, 2, 0});
+    for (int i = 0; i < 2 * kBars; ++i) greys.push_back(i / 2 % 2 == 0 ? 1.0f : 3.0f);
+    origins[0].samples = origins[1].samples = 1;
+    ProgressivePicture picture = row(greys, origins);
+    CHECK(picture.next(999).sample == 2);
+    CHECK(picture.next(999).places.size() > kBars);
+    int passes = 0;
+    for (ProgressiveWork work = picture.next(999); !work.places.empty() && passes < 99;
+         work = picture.next(999), ++passes) {
+        std::vector<float> same;
+        for (const PixelPlace& place : work.places)
+            same.push_back(greys[static_cast<std::size_t>(place.x)]);
+        picture.record(work, grey_values(same));
+    }
+    CHECK(passes < 2 * ProgressivePicture::kMostSamples);
+    CHECK(picture.finished());
+    CHECK(picture.origins()[1].samples == ProgressivePicture::kMostSamples);
+}
