@@ -277,7 +277,7 @@ void check_dimmed(const DimmedScene& scene, const std::vector<std::string>& opti
     const TemporaryFolder files;
     const auto draw = [&](const std::vector<std::string>& more, const std::string& lights,
                           const std::string& name) {
-        std::vector<std::string> words{"render", "-w", "-x", "16", "-y", "12", "-dt", "0"};
+        std::vector<std::string> words{"render", "-w", "-x", "20", "-y", "15", "-dt", "0"};
         for (const auto& some : {options, more, {"-o", files.path(name)}, scene.words, {lights}})
             words.insert(words.end(), some.begin(), some.end());
         const ProgramResult result =
