@@ -70,8 +70,10 @@ const std::vector<Split> kSplits{
 // takes longer than all of them elsewhere.
 #if defined(__SANITIZE_ADDRESS__)
 const std::vector<std::string> kLongRun{"-x", "450", "-y", "300", "-ps", "1"};
+const std::string kLitWidth = "300", kLitHeight = "225";
 #else
 const std::vector<std::string> kLongRun{"-x", "900", "-y", "600", "-ps", "1"};
+const std::string kLitWidth = "600", kLitHeight = "450";
 #endif
 
 /// Whether it comes true within a minute.
@@ -323,9 +325,9 @@ TEST_CASE("render: a run with indirect light that is killed goes on from the val
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string checkpoint = folder.path("blocks"), values = checkpoint + "-ambient";
     const std::string out = folder.path("out.hdr"), stats = folder.path("stats.json");
-    const std::vector<std::string> light{"-x",  "600",     "-y",  "450", "-ps", "1",   "-ab",
-                                         "1",   "-ad",     "64",  "-as", "0",   "-aa", ".1",
-                                         "-w-", "--stats", stats, "-o",  out,   scene};
+    const std::vector<std::string> light{"-x",  kLitWidth, "-y",  kLitHeight, "-ps", "1",   "-ab",
+                                         "1",   "-ad",     "64",  "-as",      "0",   "-aa", ".1",
+                                         "-w-", "--stats", stats, "-o",       out,   scene};
     const auto computed = [&](const std::vector<std::string>& more) {
         const ProgramResult result = run_program(line(with(more, light)));
         CHECK(result.status == 0);

@@ -41,7 +41,7 @@ def fake(node, npm, pictures):
 def page(node, program, npm, pictures):
     if lacking(npm, "playwright-core"):
         return 77
-    with Server(program, ["--light-group", "auto"]) as server:
+    with Server(program, ["--light-group", "auto", "--edge-samples", "2"]) as server:
         # The panel glows with 2 W/(m2 sr), and is the middle of the picture's right half.
         status = subprocess.run([node, VIEWER / "walk_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
                                  "--luminance", "358", "--at", "0.67,0.52"]).returncode
@@ -64,7 +64,7 @@ def time(node, program, npm, pictures):
     """Whether the page reads at other hours what `lightwalk trace` finds in the scene whose file names these hours."""
     if lacking(npm, "playwright-core"):
         return 77
-    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1"], SUNLIT.format("14.3")) as server:
+    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1", "--edge-samples", "1"], SUNLIT.format("14.3")) as server:
         status = subprocess.run([node, VIEWER / "time_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures]).returncode
     if status:
         return status
@@ -124,7 +124,7 @@ def files(node, program, npm, pictures):
         return 77
     states = [EDITED.format(paint=paint, back=back) for paint, back in ((".5 .5 .5", 6), (".8 .3 .2", 6), (".8 .3 .2", 4))]
     states[1:1] = [states[0] + "painted sphere ball 0 0 4 0 0 1 .5\n"]  # has an error
-    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1"], states[0]) as server:
+    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1", "--edge-samples", "1"], states[0]) as server:
         folder = pathlib.Path(server.folder.name)
         for k, state in enumerate(states):
             (folder / f"state{k}.rad").write_text(state)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/concurrent_cache.h"
+#include "tests/one_thread.h"
 #include "tests/parallel/ambient_values.h"
 #include "tests/test_scene.h"
 
@@ -114,7 +115,8 @@ TEST_CASE("a deterministic prepass leaves nothing for the picture to compute") {
     }
 }
 
-TEST_CASE("the values of a deterministic prepass are as good, and about as many, as one worker's") {
+TEST_CASE("the values of a deterministic prepass are as good, and about as many, as one worker's" *
+          about_numbers) {
     // Accurate: so many values that each is of few points.
     FrameOptions large = Played::small();
     large.width = 132;

@@ -101,7 +101,7 @@ TEST_CASE("with several samples the picture does not depend on executor, threads
     }
 }
 
-TEST_CASE("samples keep the light: a square's pixels add up to its area") {
+TEST_CASE("samples keep the light: a square's pixels add up to its area" * one_thread) {
     const TestScene scene(kSquare);
     constexpr int kSize = 24;
     const double pixel = 1.6 / kSize;

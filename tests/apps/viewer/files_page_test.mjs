@@ -21,7 +21,7 @@ const { values: args } = parseArgs({
     },
 });
 const kPatience = 60000;
-const [width, height] = [1280, 800];
+const [width, height] = [640, 400];
 
 /** As editors do: another file takes its place. */
 async function edit(state) {

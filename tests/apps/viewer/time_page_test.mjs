@@ -18,7 +18,7 @@ const { values: args } = parseArgs({
     },
 });
 const kPatience = 60000;
-const [width, height] = [1280, 800];
+const [width, height] = [640, 400];
 
 const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
 await mkdir(args.pictures, { recursive: true });

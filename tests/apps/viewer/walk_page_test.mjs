@@ -25,8 +25,8 @@ const { values: args } = parseArgs({
         at: { type: "string", default: "0.5,0.5" },
         view: { type: "string", default: "1" },
         chromium: { type: "string", default: "/usr/bin/chromium" },
-        width: { type: "string", default: "1280" },
-        height: { type: "string", default: "800" },
+        width: { type: "string", default: "960" },
+        height: { type: "string", default: "600" },
         patience: { type: "string", default: "120" },
     },
 });
@@ -146,7 +146,7 @@ const steps = {
     async "read a known luminance"(page) {
         await page.keyboard.press(args.view);
         await page.waitForTimeout(300);
-        await settled(page);
+        await shown(page);
         const [x, y] = args.at.split(",").map(Number);
         await page.mouse.click(x * width, (1 - y) * height);
         await page.waitForFunction(() => window.lightwalk.last_pick, null, { timeout: 10000 });
@@ -199,7 +199,7 @@ const steps = {
         await page.keyboard.press("v");
         await page.click("text=where I was");
         await page.waitForTimeout(200);
-        await settled(page);
+        await shown(page);
         const { view: back } = await counters(page, "view");
         assert.ok(
             turn_between(saved, back) < 0.01 && distance_between(saved, back) < 0.01,
@@ -243,7 +243,7 @@ const steps = {
         await page.focus("#picture");
         await page.keyboard.press("h");
         await page.waitForTimeout(200);
-        await settled(page);
+        await shown(page);
         await page.keyboard.press("m");
         await page.click("#isolux-surface");
         await page.mouse.click(0.3 * width, 0.85 * height);
@@ -267,7 +267,7 @@ const steps = {
         await page.keyboard.press("h");
         await page.waitForTimeout(200);
         await settled(page);
-        const [x, y] = [0.5 * width, 0.92 * height];
+        const [x, y] = [0.5 * width, 0.85 * height];
         await page.keyboard.press("y");
         await page.mouse.click(x, y);
         await page.waitForFunction(() => window.lightwalk.last_material, null, { timeout: 10000 });
@@ -321,7 +321,7 @@ const steps = {
         await page.focus("#picture");
         await page.keyboard.press(args.view);
         await page.waitForTimeout(300);
-        await settled(page);
+        await shown(page);
         const before = await read();
         for (const row of await page.locator("#lamps .lamp").all()) {
             await row.locator(".percent").fill("40");

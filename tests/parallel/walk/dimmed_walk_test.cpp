@@ -19,7 +19,7 @@ using lightwalk::test::TestScene;
 
 namespace {
 
-constexpr int kDimWidth = 64, kDimHeight = 48;
+constexpr int kDimWidth = 32, kDimHeight = 24;
 
 /// A room with a lamp, a sky, a polished floor, a mirror and a window pane.
 std::string room_with(const Rgb& lamp, const Rgb& sky) {

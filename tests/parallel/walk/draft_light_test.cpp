@@ -8,6 +8,7 @@
 #include "core/cloud/progressive_light.h"
 #include "core/light/find_light_groups.h"
 #include "parallel/frame.h"
+#include "tests/one_thread.h"
 #include "tests/parallel/room_view.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
@@ -15,7 +16,7 @@
 namespace lightwalk::test {
 namespace {
 
-constexpr int kDraftWidth = 48, kDraftHeight = 36;
+constexpr int kDraftWidth = 24, kDraftHeight = 18;
 constexpr double kWallReflectance = 0.6;
 // Of the light that is added, which is less than what is found: gradients by some hundred rays.
 constexpr double kSlopes = 0.08;
@@ -69,11 +70,12 @@ MemoryResources wall_of_furnace() {
 }
 
 struct Drafted {
-    explicit Drafted(const std::string& text, float constant = 0, bool groups = false)
+    explicit Drafted(const std::string& text, float constant = 0, bool groups = false,
+                     int scale = 1)
         : room(text, draft_test_options(1, constant), wall_of_furnace()),
           direct(room.scene, draft_test_options(0, constant), room.warnings) {
-        options.width = kDraftWidth;
-        options.height = kDraftHeight;
+        options.width = scale * kDraftWidth;
+        options.height = scale * kDraftHeight;
         options.pixels.spacing = 1;
         if (groups)
             of_lamps = std::make_shared<const LightGroups>(
@@ -101,7 +103,7 @@ struct Drafted {
         WorkerContexts contexts(tracer, room.warnings, 2);
         const Frame frame = render_frame(tracer, Camera(room_view()), options, *executor, contexts,
                                          stop, [](const FrameProgress&) {});
-        return turned_rows(std::span<const Rgb>(frame.radiance), kDraftWidth);
+        return turned_rows(std::span<const Rgb>(frame.radiance), options.width);
     }
 
     TestScene room;
@@ -153,8 +155,8 @@ TEST_CASE("a draft may be made of the picture's own values, which are there then
         CHECK(static_cast<double>(added.g) == within(kSlopes, expected_of_furnace(0)));
 }
 
-TEST_CASE("a draft is near what indirect light adds") {
-    Drafted room(kLampRoom);
+TEST_CASE("a draft is near what indirect light adds" * about_numbers) {
+    Drafted room(kLampRoom, 0, false, 2);
     const DraftLight& draft = room.rough();
     const std::vector<Rgb> direct = room.rendered(room.direct);
     const std::vector<Rgb> exact = room.rendered(room.room.tracer);

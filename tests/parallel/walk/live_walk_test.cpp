@@ -26,7 +26,7 @@ red polygon right 0 0 12  4 6 0  4 -6 0  4 -6 3  4 6 3
 grey sphere ball 0 0 4 -1 2 .7 .7
 lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
 )";
-constexpr int kLiveWidth = 80, kLiveHeight = 60;
+constexpr int kLiveWidth = 40, kLiveHeight = 30;
 
 View view_at(double turned) {
     View view;
@@ -123,9 +123,9 @@ TEST_CASE("frames of another size are drawn from what those before have found") 
         return static_cast<double>(picture.report.reused) /
                static_cast<double>(picture.report.pixels);
     };
-    CHECK(reused_at(kLiveWidth, kLiveHeight, -0.02) == 0);
-    CHECK(reused_at(kLiveWidth / 2, kLiveHeight / 2, -0.01) > 0.9);
-    CHECK(reused_at(kLiveWidth, kLiveHeight, 0) > 0.5);
+    CHECK(reused_at(2 * kLiveWidth, 2 * kLiveHeight, -0.02) == 0);
+    CHECK(reused_at(kLiveWidth, kLiveHeight, -0.01) > 0.9);
+    CHECK(reused_at(2 * kLiveWidth, 2 * kLiveHeight, 0) > 0.5);
     const LivePicture rested = walker.rest(view_at(0), WalkAmbient::off);
     CHECK(rested.radiance == walker.rendered(walker.direct, view_at(0)).radiance);
 }
@@ -203,8 +203,8 @@ TEST_CASE("a view that moves on leaves what it was doing, and is told from one t
     CHECK(moved.phase == WalkPhase::moving);
     CHECK(moved.radiance.size() == kLiveWidth * kLiveHeight);
     CHECK(walker.next(view_at(0.05), WalkAmbient::rest).phase != WalkPhase::moving);
-    REQUIRE(walker.live.next(view_at(0.05), 40, 30, WalkAmbient::rest, 1, walker.stop));
-    CHECK(walker.live.picture().radiance.size() == 1200);
+    REQUIRE(walker.live.next(view_at(0.05), 20, 15, WalkAmbient::rest, 1, walker.stop));
+    CHECK(walker.live.picture().radiance.size() == 300);
 }
 
 TEST_CASE("edges get more rays where a view rests, other pixels do not") {

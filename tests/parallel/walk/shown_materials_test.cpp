@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "parallel/walk/scene_caster.h"
+#include "tests/one_thread.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
+using lightwalk::test::one_thread;
 using lightwalk::test::TestScene;
 
 namespace {
@@ -76,7 +78,8 @@ bool is_another(const Rgb& a, const Rgb& b) {
 
 }  // namespace
 
-TEST_CASE("shown materials: the points that another colour changes are found, and hardly others") {
+TEST_CASE("shown materials: the points that another colour changes are found, and hardly others" *
+          one_thread) {
     const std::vector<std::pair<std::string, bool>> cases{
         {"wall", false}, {"ball", false}, {"post", false}, {"tiles", false}, {"ball", true}};
     for (const auto& [name, polished] : cases) {
