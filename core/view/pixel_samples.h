@@ -17,7 +17,7 @@ struct PixelOffset {
 inline constexpr double kPixelFilterRadius = 0.6;
 
 /// How far along either axis from a pixel's centre a sample counts where pixels share samples
-/// [pixels]: pfilt -r .6 ends its Gaussian there. What lies beyond is .5 % of the weight.
+/// [pixels]: pfilt -r .6 ends its Gaussian there. What lies beyond is .4 % of the weight.
 inline constexpr double kPixelFilterReach = 1.3;
 
 /// The filter's weight along one axis, at distance `d` from the pixel's centre [pixels]: exp(-(d /
@@ -27,7 +27,8 @@ inline constexpr double kPixelFilterReach = 1.3;
 /// Where in its pixel a sample lies that neighbouring pixels share: samples are uniform over the
 /// picture, each pixel has `count`, from -0.5 to 0.5 along either axis. `at` of all samples being a
 /// (0,2)-sequence's, a power of two of them lie one in each box already. Other numbers have a grid
-/// with a sample in each cell where they are the product of two like ones: nine have a tenth less error.
+/// with a sample in each cell where they are the product of two like ones: nine have a tenth less
+/// error.
 /// @param at  uniform in the unit square
 [[nodiscard]] PixelOffset shared_sample(int sample, int count, const SequencePoint& at);
 
