@@ -73,9 +73,10 @@ std::vector<OptionRow> pixel_rows(RenderCommand& c) {
          "pixel threshold | how much neighbours may differ (see -ps), as a share",
          With{.least = 0}},
         {"--samples N", &p.samples,
-         "rays a pixel | N rays in every pixel, drawn from a Gaussian of .6 pixels as of pfilt -r "
-         ".6, and averaged: edges without steps, less noise (-ps is then 1 and -pj does not count; "
-         "-z tells the distance along the ray nearest to the pixel's centre)",
+         "rays a pixel | N rays in every pixel, filtered by a Gaussian of .6 pixels as pfilt -r .6 "
+         "does; pixels share those of their neighbours: edges without steps, less noise, best for "
+         "powers of two (-ps is then 1 and -pj does not count; -z tells the distance along the ray "
+         "nearest to the pixel's centre)",
          With{.least = 1, .most = 65536}},
         {"-S N", &c.first_frame,
          "a picture for each view line on standard input, numbered from N; -o f%03d.hdr names them",

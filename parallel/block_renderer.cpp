@@ -5,11 +5,21 @@
 
 #include "core/transport/light_groups.h"
 #include "core/view/refine.h"
+#include "parallel/filtered_block.h"
 
 namespace lightwalk {
 namespace {
 
 constexpr int kPacketSide = 8;  ///< pixels traced together when every pixel is traced
+/// Side of blocks whose pixels share samples: a block traces those around it again, .8 pixels wide,
+/// a tenth of its own at this size, a twentieth at the largest that block_side() makes.
+constexpr int kSharingSide = 32;
+
+/// Neighbours are there where every pixel is traced.
+SampleUse sample_use(const FrameOptions& options) {
+    const bool all = options.pixels.spacing == 1 && options.step == 1;
+    return all && options.pixels.samples > 1 ? SampleUse::shared : SampleUse::own;
+}
 
 }  // namespace
 
@@ -19,7 +29,7 @@ BlockRenderer::BlockRenderer(const Tracer& tracer, const Camera& camera,
     : tracer_(tracer),
       options_(options),
       rays_(camera, options.previous, options.width, options.height, options.pixels, options.seed,
-            options.step),
+            options.step, sample_use(options)),
       contexts_(contexts),
       stop_(stop) {
     // With several samples rays find small sources; drawing them as well would count them twice.
@@ -29,7 +39,12 @@ BlockRenderer::BlockRenderer(const Tracer& tracer, const Camera& camera,
 }
 
 int BlockRenderer::alignment() const {
+    if (shares_samples()) return kSharingSide;
     return options_.pixels.spacing > 1 ? refine_tile_side(options_.pixels.spacing) : kPacketSide;
+}
+
+bool BlockRenderer::shares_samples() const {
+    return sample_use(options_) == SampleUse::shared;
 }
 
 bool BlockRenderer::render(const Block& block, int worker, BlockPixels& pixels) const {
@@ -39,7 +54,9 @@ bool BlockRenderer::render(const Block& block, int worker, BlockPixels& pixels) 
     const std::size_t groups = contexts_[worker].groups ? contexts_[worker].groups->size() : 0;
     pixels.groups.assign(block.pixels() * groups, {});
     PixelTracer trace(tracer_, rays_, contexts_[worker], stop_);
-    if (options_.pixels.spacing > 1)
+    if (shares_samples())
+        filter_samples(trace, pixels);
+    else if (options_.pixels.spacing > 1)
         refine(trace, pixels);
     else
         trace_all(trace, pixels);
@@ -71,6 +88,22 @@ void BlockRenderer::trace_all(PixelTracer& trace, BlockPixels& pixels) const {
             }
         }
     }
+}
+
+/// All samples whose pixels the block's filters reach, sample by sample in packets.
+void BlockRenderer::filter_samples(PixelTracer& trace, BlockPixels& pixels) const {
+    const Block& block = pixels.block;
+    FilteredBlock filtered(rays_, options_, block, pixels.groups.size() / block.pixels());
+    const PixelRectangle& around = filtered.around();
+    for (int y0 = around.y0; y0 < around.y1; y0 += kPacketSide) {
+        for (int x0 = around.x0; x0 < around.x1; x0 += kPacketSide) {
+            const PixelRectangle packet =
+                intersection({x0, y0, x0 + kPacketSide, y0 + kPacketSide}, filtered.around());
+            for (int sample = 0; sample < options_.pixels.samples && !stop_.requested(); ++sample)
+                filtered.trace(trace, packet, sample, pixels);
+        }
+    }
+    filtered.gather(pixels);
 }
 
 /// Whole tiles of the picture, whatever part of them the block covers: where a tile is refined does

@@ -49,7 +49,9 @@ class BlockRenderer {
     [[nodiscard]] bool render(const Block& block, int worker, BlockPixels& pixels) const;
 
   private:
+    [[nodiscard]] bool shares_samples() const;
     void trace_all(PixelTracer& trace, BlockPixels& pixels) const;
+    void filter_samples(PixelTracer& trace, BlockPixels& pixels) const;
     void refine(PixelTracer& trace, BlockPixels& pixels) const;
     void draw_small_sources(int worker, BlockPixels& pixels) const;
 

@@ -4,10 +4,7 @@ namespace lightwalk {
 
 void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                              std::span<PixelHit> hits) {
-    if (context_.groups) {
-        groups_.assign(places.size() * context_.groups->size(), {});
-        mirrored_groups_.assign(groups_.size(), {});
-    }
+    clear_groups(places.size());
     trace_sample(0, places, values, hits);
     if (pixel_rays_.samples() == 1) return;
     more_.resize(places.size());
@@ -22,6 +19,18 @@ void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<Pixel
     for (PixelHit& hit : hits) hit.mirrored *= share;
     for (Rgb& value : groups_) value *= share;
     for (Rgb& value : mirrored_groups_) value *= share;
+}
+
+void PixelTracer::trace_one(int sample, std::span<const PixelPlace> places,
+                            std::span<PixelValue> values, std::span<PixelHit> hits) {
+    clear_groups(places.size());
+    trace_sample(sample, places, values, hits);
+}
+
+void PixelTracer::clear_groups(std::size_t places) {
+    if (!context_.groups) return;
+    groups_.assign(places * context_.groups->size(), {});
+    mirrored_groups_.assign(groups_.size(), {});
 }
 
 void PixelTracer::shade_by_groups() {

@@ -29,6 +29,10 @@ class PixelTracer {
     void operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                     std::span<PixelHit> hits = {});
 
+    /// One sample of each pixel alone: radiance, distance and hit as above, of this sample.
+    void trace_one(int sample, std::span<const PixelPlace> places, std::span<PixelValue> values,
+                   std::span<PixelHit> hits);
+
     /// Of pixel i of the last call, what each light group adds; empty: not asked for.
     [[nodiscard]] std::span<const Rgb> groups(std::size_t i) const {
         const std::size_t count = groups_.empty() ? 0 : context_.groups->size();
@@ -43,6 +47,7 @@ class PixelTracer {
     }
 
   private:
+    void clear_groups(std::size_t places);
     void shade_by_groups();
     void trace_sample(int sample, std::span<const PixelPlace> places, std::span<PixelValue> values,
                       std::span<PixelHit> hits);

@@ -235,7 +235,7 @@ Vec3 HemisphereFrame::above(const DiskPoint& d) const {
 
 Vec3 sample_direction(const Vec3& normal, RandomStream random) {
     const HemisphereFrame frame(normal, random);
-    const double along_i = random.next(), along_j = random.next();
+    const auto [along_i, along_j] = random.next_pair();
     return frame.above(square_to_disk(along_j, along_i));
 }
 

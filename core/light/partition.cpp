@@ -160,9 +160,11 @@ Vec3 position_in_box(const LightSource& source, const SourcePart& part, int part
                      RandomStream& random) {
     Vec3 a = part.center;
     if (jitter > 0) {
-        const std::size_t axes = source.is_flat() || source.is_distant() ? 2 : 3;
-        for (std::size_t i = 0; i < axes; ++i)
-            a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
+        const auto [x, y] = random.next_pair();
+        a.x += jitter * (1 - 2 * x) * part.size.x;
+        a.y += jitter * (1 - 2 * y) * part.size.y;
+        const bool plane = source.is_flat() || source.is_distant();
+        if (!plane) a.z += jitter * (1 - 2 * random.next()) * part.size.z;
     }
     return is_squeezed(source, parts, jitter) ? squeeze(source, a) : a;
 }

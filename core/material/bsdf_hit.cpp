@@ -54,8 +54,10 @@ void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled, 
         const ProjectedDirection e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
         const BsdfLookup lookup = lobes.look_up(e);
         const double total = lobes.total(lookup);
-        const auto draw = [&] { return kMiddle + narrow * (ray.random.next() - 0.5); };
-        const double choice = draw(), xi1 = draw(), xi2 = draw();
+        const auto narrowed_to = [&](double xi) { return kMiddle + narrow * (xi - 0.5); };
+        const double choice = narrowed_to(ray.random.next());
+        const auto [along, across] = ray.random.next_pair();
+        const double xi1 = narrowed_to(along), xi2 = narrowed_to(across);
         if (!(total > 0)) continue;
         const BsdfLobes::Sample sample = lobes.sample(lookup, choice, xi1, xi2);
         if (sampled.through && passes_straight(hit, e, sample.l, area)) continue;
@@ -89,7 +91,8 @@ ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_sam
                             RandomStream& random) {
     const double reach = size * std::min(specular_samples, 1.0);
     if (!(reach > 0)) return hit.e;
-    const double dx = reach * (0.5 - random.next()), dy = reach * (0.5 - random.next());
+    const auto [x, y] = random.next_pair();
+    const double dx = reach * (0.5 - x), dy = reach * (0.5 - y);
     const Vec3 moved = normalize({hit.e.x + dx, hit.e.y + dy, hit.height});
     return {moved.x, moved.y};
 }

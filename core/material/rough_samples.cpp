@@ -11,9 +11,8 @@ constexpr int kMaxSamples = 1 << 20;
 /// A sample of one of Ward's lobes, narrowed by -ss.
 template <class Lobe>
 std::optional<Vec3> draw_ward(Ray& ray, const Lobe& lobe, double specular_samples) {
-    const double xi1 = ray.random.next();
-    const double xi2 = narrowed(ray.random.next(), specular_samples);
-    return lobe.sample(ray.hit.normal, xi1, xi2);
+    const auto [xi1, xi2] = ray.random.next_pair();
+    return lobe.sample(ray.hit.normal, xi1, narrowed(xi2, specular_samples));
 }
 
 }  // namespace
@@ -49,8 +48,8 @@ void add_rough_transmission(Ray& ray, const WardTransmission& lobe, const Rgb& c
 void add_rough_reflection(Ray& ray, const AshikhminReflection& lobe, const Rgb& coef,
                           TraceContext& context) {
     const auto draw = [&](Ray& from) {
-        const double xi1 = from.random.next();
-        return lobe.sample(from.hit.normal, xi1, from.random.next());
+        const auto [xi1, xi2] = from.random.next_pair();
+        return lobe.sample(from.hit.normal, xi1, xi2);
     };
     const auto weight = [](const Vec3&, int) { return 1.0; };
     add_rough_samples(ray, kSpecularReflected, coef, context, draw, weight, false);

@@ -5,7 +5,7 @@ namespace lightwalk {
 
 /// Options of the sampling of pixels, with names and defaults of rpict.
 struct PixelOptions {
-    int samples = 1;  ///< --samples: rays a pixel; more than 1 are drawn from the pixel's filter
+    int samples = 1;  ///< --samples: rays a pixel; what more than 1 count is the pixel's filter's
     int spacing = 4;  ///< -ps: distance of the pixels that are traced in any case, 1 ... 16
     double threshold =
         0.05;              ///< -pt: relative difference beyond which pixels in between are traced

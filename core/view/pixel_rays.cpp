@@ -20,14 +20,15 @@ double slant(const Camera& camera, const Vec3& direction) {
 }  // namespace
 
 PixelRays::PixelRays(const Camera& camera, const Camera* previous, int width, int height,
-                     const PixelOptions& options, std::uint64_t seed, int step)
+                     const PixelOptions& options, std::uint64_t seed, int step, SampleUse use)
     : camera_(camera),
       previous_(previous),
       width_(width),
       height_(height),
       options_(options),
       seed_(seed),
-      step_(step) {}
+      step_(step),
+      shared_(use == SampleUse::shared && options.samples > 1) {}
 
 bool PixelRays::pinhole() const {
     return options_.aperture <= kEpsilon && (previous_ == nullptr || options_.motion <= kEpsilon);
@@ -35,6 +36,18 @@ bool PixelRays::pinhole() const {
 
 PixelOffset PixelRays::filter_offset(int x, int y, int sample, RandomStream& random) const {
     return pixel_sample(seed_, x, y, sample, options_.samples, random.next());
+}
+
+PixelRays::Place PixelRays::shared_place(int x, int y, int sample) const {
+    const auto beside = [](int at) { return static_cast<std::uint32_t>(at + 1); };
+    Place place{
+        0, 0,
+        RandomStream::of_samples(seed_, beside(x), beside(y), static_cast<std::uint32_t>(sample),
+                                 static_cast<std::uint32_t>(options_.samples))};
+    const PixelOffset off = shared_sample(sample, options_.samples, place.random.next_pair());
+    place.h = (x + (0.5 + off.x)) / width_;
+    place.v = (y + (0.5 + off.y)) / height_;
+    return place;
 }
 
 PixelRay PixelRays::operator()(int x, int y, int sample) const {
@@ -65,8 +78,9 @@ Camera::ViewRay PixelRays::through_lens(const Camera::ViewRay& ray, RandomStream
     const View& view = camera_.view();
     const double focus = length(view.direction);
     const Vec3 forward = camera_.forward();
-    const double radius = 0.5 * options_.aperture * std::sqrt(random.next());
-    const double angle = 2 * kPi * random.next();
+    const auto [outwards, around] = random.next_pair();
+    const double radius = 0.5 * options_.aperture * std::sqrt(outwards);
+    const double angle = 2 * kPi * around;
     const bool parallel = view.type == 'l';
     const bool flat = parallel || view.type == 'v';
     const Vec3 centre = parallel ? ray.origin - view.fore * forward : view.position;

@@ -18,6 +18,12 @@ struct PixelRay {
     double h = 0, v = 0;  ///< image position, see Camera::ray
 };
 
+/// What the samples of pixels with several of them are for.
+enum class SampleUse {
+    own,     ///< a pixel is the plain mean of its own: pixel_sample() of core/view
+    shared,  ///< neighbouring pixels share them, and weigh them by their filter: shared_sample()
+};
+
 /// Generates the primary ray of each pixel: a pure function of the pixel and sample.
 class PixelRays {
   public:
@@ -25,13 +31,16 @@ class PixelRays {
     /// The cameras must outlive this.
     /// @param step      1, or more: (x, y) stands for a pixel in the middle of step x step of them
     PixelRays(const Camera& camera, const Camera* previous, int width, int height,
-              const PixelOptions& options, std::uint64_t seed, int step = 1);
+              const PixelOptions& options, std::uint64_t seed, int step = 1,
+              SampleUse use = SampleUse::own);
 
     /// Pixel (x, y), y from the bottom, goes through ((x + j1) / width, (y + j2) / height), j
     /// uniform in ½ ± jitter / 2. Source: Radiance manual page rpict(1), -pj, -pd and -pm.
-    /// With several samples a pixel their places come from pixel_sample() (core/view) instead, some
-    /// of them beyond the pixel's edge, and jitter is not used. Lens and motion as with one sample.
-    /// @param sample  0 ... samples - 1; sample 0 is nearest to the pixel's centre
+    /// With several samples a pixel their places are those of their use instead, and jitter is not
+    /// used. Lens and motion as with one sample. Where pixels share samples these are stratified
+    /// together over the whole picture, with all that is drawn for them (RandomStream::of_samples),
+    /// and those of pixels beside the picture are asked for, too, by one pixel on each side.
+    /// @param sample  0 ... samples - 1; of pixels' own samples 0 is nearest to the pixel's centre
     [[nodiscard]] PixelRay operator()(int x, int y, int sample = 0) const;
 
     /// The image position (see Camera::ray) of a pixel's ray, and the random numbers that remain.
@@ -48,6 +57,7 @@ class PixelRays {
     [[nodiscard]] bool pinhole() const;
 
   private:
+    [[nodiscard]] Place shared_place(int x, int y, int sample) const;
     [[nodiscard]] PixelOffset offset(int x, int y, int sample, RandomStream& random) const;
     [[nodiscard]] PixelOffset filter_offset(int x, int y, int sample, RandomStream& random) const;
     [[nodiscard]] Camera::ViewRay blur_motion(const Camera::ViewRay& now, double h, double v,
@@ -61,6 +71,7 @@ class PixelRays {
     PixelOptions options_;
     std::uint64_t seed_;
     int step_;
+    bool shared_;
 };
 
 inline PixelOffset PixelRays::offset(int x, int y, int sample, RandomStream& random) const {
@@ -74,6 +85,7 @@ inline PixelOffset PixelRays::offset(int x, int y, int sample, RandomStream& ran
 }
 
 inline PixelRays::Place PixelRays::place(int x, int y, int sample) const {
+    if (shared_) return shared_place(x, y, sample);
     x = std::min(x * step_ + step_ / 2, width_ - 1);
     y = std::min(y * step_ + step_ / 2, height_ - 1);
     Place place{

@@ -1,7 +1,9 @@
 #include "core/view/pixel_samples.h"
 
+#include <bit>
 #include <cmath>
 
+#include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/math/vec3.h"
 
@@ -11,7 +13,29 @@ namespace {
 constexpr double kGoldenSection = 0.61803398874989484820;  // (sqrt 5 - 1) / 2
 constexpr std::uint32_t kTurn = 0x7fffffff;  // number of a random stream that no sample uses
 
+/// Columns of the grid that has `count` cells, at most twice as many rows as columns or the other
+/// way round; 1: there is none.
+int grid_columns(int count) {
+    for (int columns = static_cast<int>(std::sqrt(count)); columns > 1; --columns) {
+        if (count % columns == 0 && count / columns <= 2 * columns) return columns;
+    }
+    return 1;
+}
+
 }  // namespace
+
+double pixel_filter(double d) {
+    const double x = d * (1 / kPixelFilterRadius);
+    return d > -kPixelFilterReach && d < kPixelFilterReach ? elementary::exp(-x * x) : 0;
+}
+
+PixelOffset shared_sample(int sample, int count, const SequencePoint& at) {
+    const int columns = std::has_single_bit(static_cast<unsigned>(count)) ? 1 : grid_columns(count);
+    if (columns == 1) return {at.first - 0.5, at.second - 0.5};
+    const int rows = count / columns;
+    const int column = sample % columns, row = sample / columns;
+    return {(column + at.first) / columns - 0.5, (row + at.second) / rows - 0.5};
+}
 
 PixelOffset pixel_sample(std::uint64_t seed, int x, int y, int sample, int count, double jitter) {
     const double turn = RandomStream::of_pixel(seed, static_cast<std::uint32_t>(x),

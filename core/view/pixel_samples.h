@@ -1,6 +1,8 @@
 #pragma once
-// Where the samples of a pixel lie: drawn from the pixel's filter.
+// Where the samples of a pixel lie, and how much they count: the pixel's filter.
 #include <cstdint>
+
+#include "core/math/sequence_2d.h"
 
 namespace lightwalk {
 
@@ -14,8 +16,25 @@ struct PixelOffset {
 /// a straight edge), so no second program is needed to average an oversized picture.
 inline constexpr double kPixelFilterRadius = 0.6;
 
+/// How far along either axis from a pixel's centre a sample counts where pixels share samples
+/// [pixels]: pfilt -r .6 ends its Gaussian there. What lies beyond is .4 % of the weight.
+inline constexpr double kPixelFilterReach = 1.3;
+
+/// The filter's weight along one axis, at distance `d` from the pixel's centre [pixels]: exp(-(d /
+/// 0.6)²), and 0 beyond its reach. That of a place is the product of both axes'.
+[[nodiscard]] double pixel_filter(double d);
+
+/// Where in its pixel a sample lies that neighbouring pixels share: samples are uniform over the
+/// picture, each pixel has `count`, from -0.5 to 0.5 along either axis. `at` of all samples being a
+/// (0,2)-sequence's, a power of two of them lie one in each box already. Other numbers have a grid
+/// with a sample in each cell where they are the product of two like ones: nine have a tenth less
+/// error.
+/// @param at  uniform in the unit square
+[[nodiscard]] PixelOffset shared_sample(int sample, int count, const SequencePoint& at);
+
 /// The samples of pixel (x, y), distributed as its filter's weight: their plain mean is the
-/// filtered value, and no pixel needs another's samples. Source: Ernst, Stamminger & Greiner,
+/// filtered value, and no pixel needs another's samples: for pixels that are traced here and there.
+/// Source: Ernst, Stamminger & Greiner,
 /// "Filter importance sampling", IEEE Symposium on Interactive Ray Tracing 2006. They form a
 /// sunflower head, each pixel's turned by an angle of its own: angles advance by the golden section
 /// (Vogel, "A better way to construct the sunflower head", Mathematical Biosciences 44, 1979), and

@@ -42,8 +42,8 @@ std::vector<OptionRow> direct_light(RenderSettings& s) {
     return {
         {"What is shown", SectionTitle{"render"}},
         {"-u[+-]", &s.uncorrelated,
-         "uncorrelated sampling | independent samples, as Radiance has them; they always are, so "
-         "it changes nothing"},
+         "uncorrelated sampling | independent samples, as Radiance has them; those of one ray a "
+         "pixel always are, so it changes nothing"},
         {"-w[+-]", &s.warnings, "warning messages | print warnings"},
         {"-i[+-]", &o.irradiance,
          "irradiance instead of radiance | irradiance of the surfaces seen, instead of their "

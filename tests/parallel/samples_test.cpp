@@ -182,16 +182,135 @@ TEST_CASE("small sources are found by the samples, and count once" * one_thread)
     CHECK(std::abs(sum / kSeeds - expected) < 4 * expected / std::sqrt(hits));
 }
 
-TEST_CASE("distance is that of the first sample's ray, the nearest to the pixel's centre") {
+TEST_CASE("with several samples a window is that part of the picture, layers and hits as well") {
+    const TestScene scene(kSampledRoom, noisy_samples());
+    const Camera camera(room_view());
+    FrameOptions options = sample_options(90, 70, 6);
+    options.hits = true;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    const Frame whole = render_samples(scene.tracer, camera, options, *executor);
+    options.window = PixelRectangle{13, 5, 58, 69};
+    const Frame part = render_samples(scene.tracer, camera, options, *executor);
+    REQUIRE(part.width == 45);
+    for (int row = 0; row < part.height; ++row) {
+        for (int x = 0; x < part.width; ++x) {
+            const auto of_part = static_cast<std::size_t>(row * part.width + x);
+            const auto of_whole = static_cast<std::size_t>((row + 1) * 90 + x + 13);
+            REQUIRE(part.radiance[of_part] == whole.radiance[of_whole]);
+            REQUIRE(part.distance[of_part] == whole.distance[of_whole]);
+            REQUIRE(part.hits[of_part] == whole.hits[of_whole]);
+        }
+    }
+}
+
+TEST_CASE("what is bright all over is so in every pixel, to rounding, whatever the samples") {
+    const TestScene scene(
+        "void glow even 0 0 4 .7 .5 .3 0\n"
+        "even source all 0 0 4 0 0 1 360\n");
+    for (const int samples : {2, 3, 4, 9, 16}) {
+        const Frame frame =
+            render_samples(scene.tracer, room_view(), sample_options(40, 35, samples));
+        for (std::size_t i = 0; i < frame.radiance.size(); ++i)
+            REQUIRE(green(frame, i) == doctest::Approx(.5).epsilon(1e-5));
+    }
+}
+
+/// Mean and variance of the pixels of many pictures with shared samples, or with pixels' own.
+struct Seeds {
+    double mean = 0;
+    double error = 0;  ///< of the mean
+    double noise = 0;  ///< mean variance of a pixel
+};
+
+Seeds over_seeds(const TestScene& scene, const View& view, int samples, bool shared) {
+    constexpr int kSeeds = 40;
+    constexpr int kWidth = 20, kHeight = 15;
+    std::vector<double> sum(kWidth * kHeight), squares(kWidth * kHeight);
+    double means = 0, mean_squares = 0;
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+        FrameOptions options = sample_options(kWidth, kHeight, samples, seed + 1);
+        if (!shared) {  // where pixels may be interpolated, though all are traced
+            options.pixels.spacing = 2;
+            options.pixels.threshold = 0;
+        }
+        const Frame frame = render_samples(scene.tracer, view, options);
+        const double mean = total(frame) / (kWidth * kHeight);
+        means += mean;
+        mean_squares += mean * mean;
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sum[i] += green(frame, i);
+            squares[i] += green(frame, i) * green(frame, i);
+        }
+    }
+    Seeds result{means / kSeeds, 0, 0};
+    result.error = std::sqrt((mean_squares / kSeeds - result.mean * result.mean) / (kSeeds - 1));
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        result.noise += (squares[i] / kSeeds - sum[i] / kSeeds * (sum[i] / kSeeds)) /
+                        static_cast<double>(sum.size());
+    return result;
+}
+
+TEST_CASE("shared samples show the same light as pixels' own, with far less noise" * one_thread) {
+    RenderOptions options;
+    options.source_jitter = 1;
+    std::string room;
+    View view = room_view();
+    double gain = 4;  // at least
+    SUBCASE("a lamp behind a grid: strata of its area") {
+        options.source_subdivision = 0;
+        room =
+            "void plastic white 0 0 5 .6 .6 .6 0 0\n"
+            "void light lamp 0 0 3 20 20 20\n"
+            "white polygon ground 0 0 12  -19 -19 0  19 -19 0  19 19 0  -19 19 0\n"
+            "lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5\n"
+            "white polygon shade 0 0 12  -.6 -9 3  -.1 -9 3  -.1 9 3  -.6 9 3\n"
+            "white polygon shade2 0 0 12  .1 -9 3  .5 -9 3  .5 9 3  .1 9 3\n";
+        view.type = 'l';
+        view.position = {0, 0, 2};
+        view.direction = {0, 0, -1};
+        view.up = {0, 1, 0};
+        view.horizontal = view.vertical = 3;
+    }
+    SUBCASE("a rough ball before it: strata of the lobe") {
+        room =
+            "void metal rough 0 0 5 .9 .9 .9 .9 .15\n"
+            "void glow sky 0 0 4 2 2 2 0\n"
+            "sky source above 0 0 4 0 0 1 120\n"
+            "rough polygon wall 0 0 12  -9 9 -9  9 9 -9  9 9 9  -9 9 9\n";
+        view = View{};
+        view.direction = {0, 1, .2};
+        gain = 3;
+    }
+    const TestScene scene(room, options);
+    for (const int samples : {4, 9, 16}) {
+        CAPTURE(samples);
+        const Seeds shared = over_seeds(scene, view, samples, true);
+        const Seeds own = over_seeds(scene, view, samples, false);
+        // Both see through the same filter, which one of them ends where .4 % of it are left.
+        const double rest = .001 * own.mean;
+        CHECK(std::abs(shared.mean - own.mean) < 4 * std::hypot(shared.error, own.error) + rest);
+        CHECK(own.error < .02 * own.mean);  // or the test could not tell
+        CHECK(shared.noise * gain < own.noise);
+    }
+}
+
+TEST_CASE("distance is that of the ray nearest to the pixel's centre, of the pixel's own") {
     const TestScene scene(kSampledRoom);
     const Camera camera(room_view());
     const FrameOptions options = sample_options(20, 15, 4);
     const Frame frame = render_samples(scene.tracer, room_view(), options);
-    const PixelRays rays(camera, nullptr, 20, 15, options.pixels, 0);
+    const PixelRays rays(camera, nullptr, 20, 15, options.pixels, 0, 1, SampleUse::shared);
     TestScene again(kSampledRoom);
     for (int row = 0; row < 15; ++row) {
         for (int x = 0; x < 20; ++x) {
-            const PixelRay pixel = rays(x, 14 - row, 0);
+            const auto far = [&](int sample) {
+                const PixelRays::Place at = rays.place(x, 14 - row, sample);
+                return std::hypot(at.h * 20 - x - 0.5, at.v * 15 - (14 - row) - 0.5);
+            };
+            int nearest = 0;
+            for (int sample = 1; sample < 4; ++sample)
+                if (far(sample) < far(nearest)) nearest = sample;
+            const PixelRay pixel = rays(x, 14 - row, nearest);
             REQUIRE(pixel.ray);
             const Ray ray = again.trace(pixel.ray->origin, pixel.ray->direction);
             CHECK(frame.distance[static_cast<std::size_t>(row * 20 + x)] ==

@@ -3,11 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/math/random.h"
 #include "core/math/vec3.h"
+#include "tests/core/chi_square.h"
 
 using namespace lightwalk;
 
@@ -99,4 +102,52 @@ TEST_CASE("the samples of a pixel are the same each time, pixels and seeds have 
     CHECK(a.x != pixel_sample(2, 5, 6, 3, 8, 0.25).x);
     CHECK(radius(a) == doctest::Approx(radius(pixel_sample(2, 5, 6, 3, 8, 0.25))));
     CHECK(std::isfinite(pixel_sample(1, 0, 0, 7, 8, 1 - 0x1p-53).x));
+}
+
+TEST_CASE(
+    "the filter is the Gaussian of .6 pixels, and ends where less than half a per cent is left") {
+    CHECK(pixel_filter(0) == 1);
+    CHECK(pixel_filter(0.6) == doctest::Approx(std::exp(-1)));
+    CHECK(pixel_filter(-1.2) == doctest::Approx(std::exp(-4)));
+    CHECK(pixel_filter(kPixelFilterReach) == 0);
+    CHECK(pixel_filter(-kPixelFilterReach) == 0);
+    const double kept = std::erf(kPixelFilterReach / kPixelFilterRadius);
+    CHECK(1 - kept * kept < 0.005);
+    // A sample reaches no farther than the eight pixels around its own.
+    CHECK(kPixelFilterReach <= 1.5);
+}
+
+TEST_CASE("shared samples lie in their pixel, one in each cell of the grid that their number has") {
+    for (const auto& [count, columns, rows] : std::vector<std::array<int, 3>>{
+             {2, 1, 1}, {4, 1, 1}, {5, 1, 1}, {6, 2, 3}, {9, 3, 3}, {12, 3, 4}, {14, 1, 1}}) {
+        CAPTURE(count);
+        std::vector<int> cells(static_cast<std::size_t>(columns * rows), 0);
+        for (int s = 0; s < count; ++s) {
+            for (const double u : {0.0, 0.3, 1 - 0x1p-32}) {
+                const PixelOffset at = shared_sample(s, count, {u, 1 - 0x1p-32 - u});
+                REQUIRE(std::max(std::abs(at.x), std::abs(at.y)) <= 0.5);
+                const int column = static_cast<int>((at.x + 0.5) * columns);
+                const int row = static_cast<int>((at.y + 0.5) * rows);
+                ++cells[static_cast<std::size_t>(row * columns + column)];
+            }
+        }
+        CHECK(*std::min_element(cells.begin(), cells.end()) ==
+              *std::max_element(cells.begin(), cells.end()));
+    }
+}
+
+TEST_CASE("shared samples are uniform in their pixel, whatever their number") {
+    const lightwalk::test::UnitSquareCells cells{18, 18};
+    const auto masses = lightwalk::test::cell_masses(cells, [](double, double) { return 1.0; });
+    for (const int count : {4, 6, 7, 9}) {
+        CAPTURE(count);
+        const auto counts = lightwalk::test::count_cells(
+            cells, masses, 20000, 3,
+            [&](RandomStream& random) -> std::optional<lightwalk::test::SquarePoint> {
+                const int sample = static_cast<int>(random.next() * count);
+                const PixelOffset at = shared_sample(sample, count, random.next_pair());
+                return lightwalk::test::SquarePoint{at.x + 0.5, at.y + 0.5};
+            });
+        CHECK(agrees(chi_square(counts)));
+    }
 }
