@@ -207,6 +207,15 @@ TEST_CASE("a view that moves on leaves what it was doing, and is told from one t
     CHECK(walker.live.picture().radiance.size() == 300);
 }
 
+TEST_CASE("where there is time a view comes to rest in few steps, however edges spread") {
+    Walker walker(0, 8);
+    int steps = 0;
+    do {
+        ++steps;
+        REQUIRE(steps < 60);
+    } while (walker.next(view_at(0), WalkAmbient::off, 100).phase != WalkPhase::done);
+}
+
 TEST_CASE("edges get more rays where a view rests, other pixels do not") {
     Walker once(0), often(0, 4);
     const LivePicture plain = once.rest(view_at(0), WalkAmbient::off);
