@@ -59,7 +59,7 @@ def measure_edits(client, view, at, edits):
         first = layer["reals"][0]
         reals = [first + (0.4 if first < 0.5 else -0.4) * (k + 1) / edits, *layer["reals"][1:]]
         material = {**{name: layer[name] for name in ("name", "definition", "kind")}, "reals": reals}
-        begin, frames = time.monotonic(), client.frames
+        begin = time.monotonic()
         client.newest.pop("edited", None)
         client.socket.send({"type": "edits", "id": 2 + k, "materials": [material]})
         # What is drawn meanwhile is still of the material before.
