@@ -35,7 +35,7 @@ BlockRenderer::BlockRenderer(const Tracer& tracer, const Camera& camera,
     // With several samples rays find small sources; drawing them as well would count them twice.
     if (rays_.pinhole() && options.step == 1 && options.pixels.samples == 1)
         small_sources_.emplace(tracer, camera, options.width, options.height,
-                               options.pixels.spacing);
+                               options.pixels.spacing, &rays_);
 }
 
 int BlockRenderer::alignment() const {

@@ -50,7 +50,8 @@ std::optional<AssembledFrame> RankFrames::drawn(FrameOrder order, const StopFlag
 WalkFrame RankFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
     lead_->set_budget(budget);
     lead_->set_refine(refine);
-    if (lead_->rests(view)) (void)progressive(stop);
+    const bool rests = lead_->rests(view);
+    if (rests) (void)progressive(stop);
     std::optional<AssembledFrame> made =
         drawn(lead_->order(view, payload(view, walking_ == indirect_.get())), stop);
     WalkFrame result;
@@ -62,7 +63,7 @@ WalkFrame RankFrames::draw(const View& view, double budget, double refine, const
     WorkerContexts& contexts = walking_->contexts;
     contexts.reset_counters();
     draw_small_sources(walking_->tracer, Camera(view), options_, executor_, contexts, result.frame,
-                       mixture_);
+                       rests ? cloud_.samples : 0, mixture_);
     result.frame.rays = contexts.rays();
     result.frame.complete = true;
     return result;

@@ -13,12 +13,16 @@ constexpr float kWidestDistant =
 constexpr float kAlreadyShown = 0.07f;  ///< relative difference of a pixel that shows the source
 constexpr double kClearlyNearer = 0.99;
 
-bool shows(const Rgb& pixel, const Rgb& source) {
+bool alike(const Rgb& pixel, const Rgb& source) {
     for (std::size_t i = 0; i < 3; ++i) {
         const float a = pixel[i], b = source[i];
         if (a - b > kAlreadyShown * b || b - a > kAlreadyShown * a) return false;
     }
     return true;
+}
+
+bool reaches(const Ray& ray) {
+    return static_cast<double>(max_component(ray.value)) > kEpsilon;
 }
 
 }  // namespace
@@ -28,7 +32,9 @@ SourceBlend blend_source(const SourcePixel& source, Rgb& pixel, float* distance)
     const bool nearer =
         distance && source.distance < kClearlyNearer * static_cast<double>(*distance);
     if (nearer) *distance = static_cast<float>(source.distance);
-    if (!nearer && shows(pixel, source.radiance)) {
+    const bool shown = source.shown == ShownSource::yes ||
+                       (source.shown == ShownSource::by_colour && alike(pixel, source.radiance));
+    if (!nearer && shown) {
         pixel *= w;
         return {w, 0};
     }
@@ -37,8 +43,13 @@ SourceBlend blend_source(const SourcePixel& source, Rgb& pixel, float* distance)
 }
 
 SmallSources::SmallSources(const LightTransport& tracer, const Camera& camera, int width,
-                           int height, int spacing)
-    : tracer_(tracer), camera_(camera), width_(width), height_(height) {
+                           int height, int spacing, const PixelRays* rays, bool own_only)
+    : tracer_(tracer),
+      camera_(camera),
+      width_(width),
+      height_(height),
+      rays_(rays),
+      own_only_(own_only && spacing == 1) {
     if (!tracer.options().sources_visible) return;
     const double y_scale = camera.aspect() * width / height;
     const std::span<const LightSource> sources = tracer.lights().all();
@@ -121,23 +132,40 @@ void SmallSources::draw_pixel(const Outline& outline, int x, int y, TraceContext
     const double coverage = inside.area();
     if (!(coverage > 0)) return;
     const ImagePoint center = inside.center();
-    const auto view_ray = camera_.ray(center.x / width_, center.y / height_);
-    if (!view_ray) return;
-    const LightSource& source = tracer_.lights()[outline.source];
-    if (!tracer_.lights().inside_spot(source, view_ray->origin, view_ray->direction)) return;
-    const auto stream = 0x80000000U + static_cast<std::uint32_t>(outline.source);
+    const ShownSource shown = this->shown(outline.source, x, y, context);
+    ++context.counters.rays.shadow;
+    const Ray ray = trace_to(outline.source, x, y, center.x / width_, center.y / height_, context);
+    if (reaches(ray))
+        pixel({x, y, static_cast<float>(coverage), ray.value, ray.unreflected_path_length, shown});
+}
+
+/// Black where the source does not send light along this ray, or something is in its way.
+/// @param h, v  image position, see Camera::ray
+Ray SmallSources::trace_to(std::int32_t source, int x, int y, double h, double v,
+                           TraceContext& context) const {
+    const auto view_ray = camera_.ray(h, v);
+    if (!view_ray) return {};
+    if (!tracer_.lights().inside_spot(tracer_.lights()[source], view_ray->origin,
+                                      view_ray->direction))
+        return {};
+    const auto stream = 0x80000000U + static_cast<std::uint32_t>(source);
     Ray ray = tracer_.primary(
         view_ray->origin, view_ray->direction, view_ray->limit,
         RandomStream::of_pixel(tracer_.options().seed, static_cast<std::uint32_t>(x),
                                static_cast<std::uint32_t>(y), stream));
     ray.kind = kShadow;
     ray.history = kShadow;
-    ray.target = outline.source;
-    ++context.counters.rays.shadow;
+    ray.target = source;
     if (context.groups) context.groups->clear();
     tracer_.trace(ray, context);
-    if (static_cast<double>(max_component(ray.value)) <= kEpsilon) return;
-    pixel({x, y, static_cast<float>(coverage), ray.value, ray.unreflected_path_length});
+    return ray;
+}
+
+ShownSource SmallSources::shown(std::int32_t source, int x, int y, TraceContext& context) const {
+    if (rays_ == nullptr) return ShownSource::by_colour;
+    const PixelRays::Place own = rays_->place(x, y);
+    if (!reaches(trace_to(source, x, y, own.h, own.v, context))) return ShownSource::no;
+    return own_only_ ? ShownSource::yes : ShownSource::by_colour;
 }
 
 }  // namespace lightwalk

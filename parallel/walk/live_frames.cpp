@@ -74,10 +74,12 @@ Frame turned_over(const CloudFrame& drawn, Executor& executor) {
 }
 
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
-                        Executor& executor, WorkerContexts& contexts, Frame& frame,
+                        Executor& executor, WorkerContexts& contexts, Frame& frame, int samples,
                         const LightMixture& mixture) {
     if (options.pixels.samples > 1) return;
-    const SmallSources sources(tracer, camera, options.width, options.height, 1);
+    const PixelRays rays = rays_of_sample(camera, options, 0);
+    const SmallSources sources(tracer, camera, options.width, options.height, 1,
+                               samples > 0 ? &rays : nullptr, samples == 1);
     if (sources.empty()) return;
     const std::vector<Block> blocks = make_blocks(options.whole(), 64);
     executor.for_each(blocks.size(), [&](std::size_t i, int worker) {
@@ -120,7 +122,7 @@ void LiveFrames::resize(int width, int height) {
 void LiveFrames::add_small_sources(const View& view, Frame& frame, bool indirect) {
     WalkLight& light = indirect ? *indirect_ : *walking_;
     draw_small_sources(light.tracer, Camera(view), options_, executor_, light.contexts, frame,
-                       mixture_);
+                       cloud_.samples, mixture_);
 }
 
 void LiveFrames::keep_groups(const std::shared_ptr<const LightGroups>& groups) {
@@ -177,13 +179,14 @@ WalkFrame LocalFrames::draw(const View& view, double budget, double refine, cons
     frames_->set_refine(refine);
     WorkerContexts& contexts = walking_->contexts;
     contexts.reset_counters();
+    const bool rests = frames_->refines(view);
     SceneCaster caster(walking_->tracer, walking_->visibility, Camera(view), options_, contexts,
-                       stop, use_of_frame(budget, frames_->refines(view)), &mixture_);
+                       stop, use_of_frame(budget, rests), &mixture_);
     const CloudFrame& drawn = frames_->draw(caster.camera(), caster, executor_, stop);
     WalkFrame result{turned_over(drawn, executor_), drawn.report};
     if (drawn.complete)
         draw_small_sources(walking_->tracer, caster.camera(), options_, executor_, contexts,
-                           result.frame, mixture_);
+                           result.frame, rests ? cloud_.samples : 0, mixture_);
     result.frame.rays = contexts.rays();
     result.frame.ambient = contexts.ambient();
     result.frame.complete = drawn.complete && !stop.requested();

@@ -159,8 +159,9 @@ class LiveFrames {
 
 /// Draw light sources that are too small for the pixel grid into a frame, with their coverage: they
 /// are no part of the points, for they cover more or less of a pixel from frame to frame.
+/// @param samples  most rays of a pixel at rest; 0: the view moves, and pixels may be of any ray
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
-                        Executor& executor, WorkerContexts& contexts, Frame& frame,
+                        Executor& executor, WorkerContexts& contexts, Frame& frame, int samples,
                         const LightMixture& mixture = {});
 
 /// Frames by the threads of this process.

@@ -377,6 +377,11 @@ TEST_CASE("relight: the demo scene of an evening and an office of lamps, dimmed"
         scene.dimmed = files.write("dim.rad", lamp_office(.1, .7));
         scene.groups = {"window=window_*", "hall=hall_*"};
         scene.levels = {"window=.1", "hall=.7"};
+        // Here a dimmed lamp is as bright as the ceiling beside it, where it covers 1 % of a pixel.
+        SUBCASE("of other pixels") {
+            scene.words.insert(scene.words.end(), {"-x", "16", "-y", "12"});
+        }
+        SUBCASE("") {}
     }
     CAPTURE(scene.folder);
     check_dimmed(scene, {});

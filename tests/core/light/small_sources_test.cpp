@@ -118,6 +118,33 @@ TEST_CASE("hidden sources are not drawn, those behind glass are dimmed") {
     CHECK(drawn.at({4, 3}).radiance.r == printed(5, 88.146));
 }
 
+TEST_CASE("a pixel shows a source whose own ray meets it, not what is as bright") {
+    TestScene scene(kSpeck);
+    const Camera eye = camera();
+    PixelOptions options;
+    options.jitter = 0;
+    const auto shown = [&](int size, int spacing, bool known, bool own_only) {
+        const PixelRays rays(eye, nullptr, size, size, options, 0);
+        std::map<std::pair<int, int>, ShownSource> found;
+        SmallSources(scene.tracer, eye, size, size, spacing, known ? &rays : nullptr, own_only)
+            .draw({0, 0, size, size}, scene.context, [&](const SourcePixel& p) {
+                found[{p.x, p.y}] = p.shown;
+            });
+        return found;
+    };
+    // Eight pixels: the lamp lies about a corner of four. Nine: about the middle of one.
+    const auto between = shown(8, 1, true, true), middle = shown(9, 1, true, true);
+    REQUIRE(between.size() == 4);
+    for (const auto& [at, how] : between) CHECK(how == ShownSource::no);
+    REQUIRE(middle.size() == 1);
+    CHECK(middle.at({4, 4}) == ShownSource::yes);
+    CHECK(shown(9, 1, true, false).at({4, 4}) == ShownSource::by_colour);
+    CHECK(shown(9, 4, true, true).at({4, 4}) == ShownSource::by_colour);
+    CHECK(shown(9, 1, false, true).at({4, 4}) == ShownSource::by_colour);
+    CHECK(shown(8, 4, true, true).at({3, 3}) == ShownSource::no);
+    CHECK(shown(8, 1, false, true).at({3, 3}) == ShownSource::by_colour);
+}
+
 TEST_CASE("the topmost row gets nothing") {
     TestScene scene(kSpeck);
     View view;
@@ -140,6 +167,14 @@ TEST_CASE(
     Rgb almost{108, 50, 25};  // 8 % off in one channel: something else
     blend_source(source, almost, nullptr);
     CHECK(almost.r == rounded(0.75 * 108 + 25));
+    SourcePixel missed = source, met = source;
+    missed.shown = ShownSource::no;
+    met.shown = ShownSource::yes;
+    Rgb as_bright{102, 49, 26}, through_ripples{60, 49, 26};
+    blend_source(missed, as_bright, nullptr);
+    CHECK(as_bright.r == rounded(0.75 * 102 + 25));
+    blend_source(met, through_ripples, nullptr);
+    CHECK(through_ripples.r == rounded(15));
     float distance = 20;
     Rgb wall{102, 49, 26};
     blend_source(source, wall, &distance);
