@@ -25,6 +25,9 @@ CommandRun::CommandRun(CommonOptions& options, Communicator* communicator)
     warnings_.enable(options.settings.warnings && !options.quiet && speaks());
     check_render_settings(options.settings);
     for (const std::string& notice : options.notices) warnings_.warn(notice);
+    if (!speaks()) return;
+    for (const std::string& file : {options.stats_file, options.ranks.timeline})
+        if (!file.empty()) check_writable(file);  // not once the work is done
 }
 
 void CommandRun::join(const RendererOptions& work) {

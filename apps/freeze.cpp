@@ -8,6 +8,7 @@
 #include "apps/rad_command.h"
 #include "apps/session/lightwalk/scene.h"
 #include "apps/warnings.h"
+#include "io/files/atomic_file.h"
 
 namespace lightwalk {
 namespace {
@@ -27,7 +28,7 @@ OptionTable freeze_table(FreezeCommand& c) {
             {"-n", "--allow-commands", "--quiet"}};
 }
 
-/// Throws UsageError unless the file may be written.
+/// Throws UsageError or InputError unless the file may be written.
 void check_frozen_output(const std::string& output, const std::vector<std::string>& scene_files) {
     if (output.empty()) throw UsageError("name the frozen scene's file with -o");
     for (const std::string& scene : scene_files) {
@@ -35,6 +36,7 @@ void check_frozen_output(const std::string& output, const std::vector<std::strin
         if (std::filesystem::equivalent(scene, output, none))
             throw UsageError("option -o: " + output + " is a file of the scene");
     }
+    check_writable(output);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "apps/session/picture_series.h"
 #include "apps/session/render_backend.h"
 #include "apps/session/run_header.h"
+#include "io/files/atomic_file.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
 #include "io/picture/film.h"
@@ -49,6 +50,7 @@ class RenderRun final : CommandRun {
         if (communicator == nullptr && command_.output.picture.empty() &&
             isatty(STDOUT_FILENO) != 0)
             throw UsageError("standard output is a terminal: name the picture's file with -o");
+        if (speaks()) check_outputs();
         keep_ambient_values();
     }
 
@@ -135,6 +137,15 @@ class RenderRun final : CommandRun {
     }
 
     // Pictures.
+
+    /// Throws InputError where they cannot be written, before they are drawn. Those of a sequence
+    /// are looked at by the pattern of their names, unless it is their folders that differ.
+    void check_outputs() const {
+        for (const std::string& file : {command_.output.picture, command_.output.depth}) {
+            const std::string folder = std::filesystem::path(file).parent_path().string();
+            if (!file.empty() && folder.find('%') == std::string::npos) check_writable(file);
+        }
+    }
 
     void choose_spacing() {
         constexpr int kLargestSpacing = 16;

@@ -1,5 +1,7 @@
 #include "parallel/executor.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -138,6 +140,11 @@ std::unique_ptr<Executor> make_executor(ExecutorKind kind, int workers) {
 }
 
 int hardware_threads() {
+    // What glibc 2.36 tells std::thread::hardware_concurrency() does not know of taskset.
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
+        return std::max(1, CPU_COUNT(&allowed));
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 

@@ -109,6 +109,50 @@ void write_directly(const std::string& path, std::span<const std::string_view> p
     if (failed != 0) throw write_error(path, failed);
 }
 
+/// Whether the name stands for something that is there and is no file, as a device or a pipe.
+bool is_special(const std::string& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// The file that a name stands for, behind links.
+fs::path linked_file(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_symlink(path, ignored)) return path;
+    fs::path real = fs::weakly_canonical(path, ignored);
+    return real.empty() ? fs::path(path) : real;
+}
+
+/// A new file beside the one that is to be written.
+class NewFile {
+  public:
+    /// Throws InputError, which names `path`.
+    NewFile(const std::string& path, const fs::path& target) {
+        int descriptor = -1;
+        fs::path name;
+        for (int attempt = 0; descriptor < 0 && attempt < kMostAttempts; ++attempt) {
+            name = target;
+            name += ".part" + std::to_string(::getpid()) + '-' + std::to_string(attempt);
+            descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            if (descriptor < 0 && errno != EEXIST) break;
+        }
+        if (descriptor < 0) throw write_error(path, errno);
+        part_.emplace(std::move(name));
+        file_.emplace(descriptor);
+    }
+    /// Error number, or 0.
+    int write(std::span<const std::string_view> pieces, const fs::path& target) {
+        int failed = file_->write(pieces);
+        if (failed == 0) failed = file_->close();
+        return failed == 0 ? part_->rename_to(target) : failed;
+    }
+
+  private:
+    std::optional<TemporaryFile> part_;
+    std::optional<OpenFile> file_;
+};
+
 }  // namespace
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
@@ -118,32 +162,23 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
 void write_file_atomically(const std::string& path, std::span<const std::string_view> pieces) {
     if (const std::optional<int> descriptor = descriptor_named(path))
         return write_to_descriptor(path, *descriptor, pieces);
+    if (is_special(path)) return write_directly(path, pieces);
+    const fs::path target = linked_file(path);
+    NewFile file(path, target);
+    if (const int failed = file.write(pieces, target); failed != 0) throw write_error(path, failed);
+}
+
+void check_writable(const std::string& path) {
     std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
-        write_directly(path, pieces);
-        return;
+    if (const std::optional<int> descriptor = descriptor_named(path)) {
+        if (::fcntl(*descriptor, F_GETFD) < 0) throw write_error(path, errno);
+    } else if (is_special(path)) {
+        if (::access(path.c_str(), W_OK) != 0) throw write_error(path, errno);
+    } else if (fs::is_directory(path, ignored)) {
+        throw write_error(path, EISDIR);
+    } else {
+        const NewFile made_and_removed(path, linked_file(path));
     }
-    fs::path target = path;
-    if (fs::is_symlink(target, ignored)) {
-        if (fs::path real = fs::weakly_canonical(target, ignored); !real.empty())
-            target = std::move(real);
-    }
-    fs::path temporary;
-    int descriptor = -1;
-    for (int attempt = 0; descriptor < 0 && attempt < kMostAttempts; ++attempt) {
-        temporary = target;
-        temporary += ".part" + std::to_string(::getpid()) + '-' + std::to_string(attempt);
-        descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno != EEXIST) break;
-    }
-    if (descriptor < 0) throw write_error(path, errno);
-    TemporaryFile part(temporary);
-    OpenFile file(descriptor);
-    int failed = file.write(pieces);
-    if (failed == 0) failed = file.close();
-    if (failed == 0) failed = part.rename_to(target);
-    if (failed != 0) throw write_error(path, failed);
 }
 
 }  // namespace lightwalk

@@ -13,4 +13,8 @@ void write_file_atomically(const std::string& path, std::string_view bytes);
 /// Writes the concatenation of `pieces` atomically.
 void write_file_atomically(const std::string& path, std::span<const std::string_view> pieces);
 
+/// Throws InputError where write_file_atomically() could not begin: for those who work for long
+/// before they write. Leaves nothing behind.
+void check_writable(const std::string& path);
+
 }  // namespace lightwalk

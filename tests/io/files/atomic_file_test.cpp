@@ -42,6 +42,26 @@ TEST_CASE("links are followed, devices written to directly") {
     CHECK(fs::is_character_file("/dev/null"));
 }
 
+TEST_CASE("whether a file can be written is known before there is anything to write") {
+    const TemporaryFolder folder;
+    check_writable(folder.path("new"));
+    CHECK(folder.files().empty());
+    folder.write("old", "kept");
+    check_writable(folder.path("old"));
+    CHECK(read_file(folder.path("old")) == "kept");
+    CHECK(folder.files().size() == 1);
+    check_writable("/dev/null");
+    check_writable("/dev/stdout");
+    fs::create_directory(folder.path("folder"));
+    for (const std::string& wrong :
+         {folder.path("missing/file"), folder.path("old/file"), folder.path("link"),
+          folder.path("folder"), std::string("/dev/fd/987")}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(check_writable(wrong), InputError);
+        CHECK_THROWS_AS(write_file_atomically(wrong, "x"), InputError);
+    }
+}
+
 TEST_CASE("what an open descriptor's name gets stands behind what was written to it before") {
     const TemporaryFolder folder;
     const std::string path = folder.path("log");
