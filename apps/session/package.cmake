@@ -34,6 +34,11 @@ foreach(kind STATIC SHARED)
 endforeach()
 set_target_properties(liblightwalk_shared PROPERTIES EXPORT_NAME lightwalk)
 set_target_properties(liblightwalk_static PROPERTIES EXPORT_NAME lightwalk_static)
+if(link_time)  # what is for the program alone; other versions of GCC could not even read it
+  target_link_options(liblightwalk_shared PRIVATE -fno-lto)
+  add_custom_command(TARGET liblightwalk_static POST_BUILD
+    COMMAND ${CMAKE_OBJCOPY} --remove-section=.gnu.lto_* --remove-section=.gnu.debuglto_* $<TARGET_FILE:liblightwalk_static> VERBATIM)
+endif()
 target_link_options(liblightwalk_shared PRIVATE -Wl,--no-undefined -Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/exports.map)
 set_target_properties(liblightwalk_shared PROPERTIES LINK_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/exports.map)
 
