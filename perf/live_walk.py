@@ -166,10 +166,10 @@ class Client:
         self.sent[self.ident], self.dims = time.monotonic(), True
         self.socket.send({"type": "lights", "levels": [{"name": name, "level": level, "rgb": [1, 1, 1]}]})
 
-    def set_hour(self, hour, moving=True):
+    def set_hour(self, hour):
         self.ident += 1
         self.sent[self.ident], self.dims = time.monotonic(), True
-        self.socket.send({"type": "time", "time": {**self.loaded["time"]["time"], "hour": hour}, "moving": moving})
+        self.socket.send({"type": "time", "time": {**self.loaded["time"]["time"], "hour": hour}})
 
 
 def port_behind(port, args):
@@ -222,7 +222,7 @@ def measure_after(client, view, seconds):
     measure_hours(client, view, min(seconds, 2))
     client.forget()
     start, client.finished = time.monotonic(), False
-    client.set_hour(15, moving=False)
+    client.set_hour(15)
     refined = lambda: [state for _, state in client.states[-1:] if state["phase"] in ("refining", "done")]
     while not refined() and time.monotonic() < start + MOST_REST:
         client.listen(time.monotonic() + 0.1)

@@ -38,7 +38,7 @@ export class Input {
         this.stick_ = null; // the thumb that moves the eye: {id, from}
         this.area_ = false;
         this.travelled_ = 0;
-        this.click_ = null; // the last click {x, y, time}
+        this.click_ = null; // the last click {x, y, time}, if nothing but it has been done since
         this.listen_();
     }
 
@@ -115,6 +115,7 @@ export class Input {
     hold_stick_(id, from) {
         this.fingers_.delete(id);
         this.came_.delete(id);
+        this.click_ = null;
         this.stick_ = { id, from };
         this.mark_.show(from, from);
     }
@@ -161,8 +162,9 @@ export class Input {
         if (this.fingers_.size > 0) return;
         this.surface_.classList.remove("looking");
         this.navigator_.dragging = false;
-        if (this.area_) this.end_area_(event, meant);
-        else if (meant && this.travelled_ < kClick) this.clicked_(event);
+        if (!this.area_ && meant && this.travelled_ < kClick) return this.clicked_(event);
+        this.click_ = null; // what lies between two clicks makes no double click of them
+        this.end_area_(event, meant);
     }
 
     /** The first click of a double click counts as a click as well. */

@@ -16,12 +16,12 @@ import { Measuring } from "./measuring.js";
 import { Navigator } from "./navigator.js";
 import { cover, notice, show_failures, show_troubles, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
-import { close_panel, is_open, start_panels } from "./panels.js";
+import { is_open, offer_panels, start_panels } from "./panels.js";
 import { panel_messages } from "./panel_messages.js";
 import { PathPanel } from "./path_panel.js";
 import { PlanPanel } from "./plan_panel.js";
 import { Roles } from "./roles.js";
-import { picture_size, scaled_into, Screen } from "./screen.js";
+import { on_resize, picture_size, scaled_into, Screen } from "./screen.js";
 import { Session } from "./session.js";
 import { Sides } from "./sides.js";
 import { show_phase, start_figures } from "./status.js";
@@ -30,13 +30,10 @@ import { keep_scene_item, scene_item, session_id } from "./store.js";
 import { fit_view, same_picture } from "./view.js";
 import { TimePanel } from "./time_panel.js";
 import { UnderPointer } from "./under_pointer.js";
+import { ViewSender } from "./view_sender.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
-import { margin_for, turn_between } from "./warp.js";
 import { quantity } from "./words.js";
-
-const kFastest = 12; // least time between two views, also on fast screens: the server limits the rate [ms]
-const kResized = 120; // wait after the last resize of the window before a view of the new size is sent [ms]
 
 const picture = by_id("picture");
 
@@ -204,6 +201,7 @@ const commands = start_commands({
     home: () => views.scene_views[0]?.view || home,
     scene: () => scene,
 });
+const sender = new ViewSender({ session, navigator, camera, size: () => size_now() });
 const address = new AddressBar(session, navigator, (view) => commands.go(view, false));
 commands.chosen = () => address.choose();
 new Input(picture, navigator, new StickMark(by_id("stick")), {
@@ -357,15 +355,8 @@ function files_followed(message) {
     if (files.length > 0) notice(followed_text(message));
 }
 
-function show_panel_buttons() {
-    for (const [name, is_there] of Object.entries({
-        lamps: lamps.lamps.length > 0,
-        time: time.is_there,
-    })) {
-        document.querySelector(`#dock [data-panel=${name}]`).hidden = !is_there;
-        if (!is_there && is_open(name)) close_panel();
-    }
-}
+const show_panel_buttons = () =>
+    offer_panels({ lamps: lamps.lamps.length > 0, time: time.is_there });
 
 /** The eye returns to where the newest frame was seen from, lest the same view is sent again. */
 function view_refused() {
@@ -445,17 +436,6 @@ function failed(error, frame) {
 
 // The page's clock: one tick a screen refresh ----------------------------------------------------
 
-let resized;
-function on_resize() {
-    redraw();
-    clearTimeout(resized);
-    resized = setTimeout(() => {
-        navigator.touch();
-        show_legend(light.display);
-        redraw();
-    }, kResized);
-}
-
 /**
  * Draw what the eye sees now, or in a page that watches what the driver's saw, if the newest frame is not just that; whether
  * the screen shows what was drawn.
@@ -470,30 +450,13 @@ function draw_camera() {
     return camera.draws;
 }
 
-/**
- * Send a view. While the eye moves, and the page draws the camera by itself, it is where the eye will be when its frame is
- * there, and wider than the window.
- */
-function send(step, now) {
-    if (!step.moving || !camera.ready || step.view.type !== "v")
-        return session.send_view(step, size_now(), navigator.epoch);
-    const { ahead, apart } = session.times;
-    const view = navigator.ahead(now, ahead);
-    const turn = turn_between(view, step.view) * Math.min(1, (apart + 0.3 * ahead) / ahead || 0);
-    const factor = margin_for(step.view, turn);
-    const own = { ...step, view, seen: step.view };
-    return session.send_view(own, size_now(), navigator.epoch, factor);
-}
-
-let ticked = 0;
 /** Send the present view, unless the server has it already. */
 function step_now() {
     const now = performance.now();
-    if (!welcomed || !session.driving || now - ticked < kFastest) return;
-    ticked = now;
+    if (!welcomed || !session.driving || !sender.is_due(now)) return;
     const step = navigator.tick(now);
     commands.show_walk();
-    if (!step || !send(step, now)) return;
+    if (!step || !sender.send(step, now)) return;
     if (glare.id && !same_picture(glare.view, session.view)) glare.clear();
     if (reading.pick && !reading.pick.hit) reading.close();
 }
@@ -511,7 +474,11 @@ function refresh() {
 }
 
 start_panels();
-addEventListener("resize", on_resize);
+on_resize(redraw, () => {
+    navigator.touch();
+    show_legend(light.display);
+    redraw();
+});
 addEventListener("online", () => session.connection.hurry());
 document.addEventListener("visibilitychange", () => {
     if (!document.hidden) session.connection.hurry();

@@ -34,6 +34,14 @@ export function close_panel() {
     return true;
 }
 
+/** Show the buttons of panels that are of use, and close a panel that is not. @param there  {name: whether it is of use} */
+export function offer_panels(there) {
+    for (const [name, is_there] of Object.entries(there)) {
+        button_of(name).hidden = !is_there;
+        if (!is_there && is_open(name)) close_panel();
+    }
+}
+
 /** The dock and the head fade while nobody uses them, at once while the eye moves. */
 function fade_when_idle() {
     let timer;

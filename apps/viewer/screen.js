@@ -3,6 +3,8 @@ import { Decoder } from "./decoder.js";
 import { parse_frame } from "./frame.js";
 import { Recolour } from "./recolour.js";
 
+const kResized = 120; // wait after the last resize of the window [ms]
+
 export class Screen {
     /**
      * @param canvas
@@ -95,4 +97,14 @@ export function picture_size(width, height, ratio, [most_width, most_height]) {
     const share = Math.min(1, most_width / (width * ratio), most_height / (height * ratio));
     const pixels = (size) => Math.max(1, Math.round(size * ratio * share));
     return { width: pixels(width), height: pixels(height) };
+}
+
+/** While the window is resized call `changing`, and `done` a while after the last time: then it is worth a view of the new size. */
+export function on_resize(changing, done) {
+    let resized;
+    addEventListener("resize", () => {
+        changing();
+        clearTimeout(resized);
+        resized = setTimeout(done, kResized);
+    });
 }

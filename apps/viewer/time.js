@@ -51,7 +51,7 @@ export function clock_text(hour) {
 }
 
 /** The `time` message. @param time  {month, day, hour, sky} or null: as the scene's files have it */
-export const time_message = (time, moving) => ({ type: "time", time, moving });
+export const time_message = (time) => ({ type: "time", time });
 
 const degrees = (x) => `${Math.round(Math.abs(x))}°`;
 

@@ -5,7 +5,6 @@ import { kMinutes, sun_text, time_message } from "./time.js";
 
 const kMinutesASecond = 30; // of a day that runs
 const kNextPicture = 1500; // the day goes on without a picture after this [ms]
-const kRests = 250; // without a change the time is meant [ms]
 
 export class TimePanel {
     /**
@@ -20,8 +19,6 @@ export class TimePanel {
         this.told = null; ///< the server's newest `time`
         this.playing = false;
         this.waiting_ = false; // for the screen's next refresh, to send the newest time
-        this.rest_ = 0;
-        this.sent_ = ""; // the newest message
         this.place_ = undefined; // of the newest `loaded`
         by_id("time-sky").replaceChildren(
             ...kSkies.map(([value, text]) => new Option(text, value)),
@@ -32,12 +29,9 @@ export class TimePanel {
         by_id("time-day").addEventListener("input", ({ target }) =>
             this.change_(date_of(Number(target.value))),
         );
-        for (const id of ["time-hour", "time-day"])
-            by_id(id).addEventListener("change", () => this.rest_now_());
-        by_id("time-sky").addEventListener("change", ({ target }) => {
-            this.change_({ sky: target.value });
-            this.rest_now_();
-        });
+        by_id("time-sky").addEventListener("change", ({ target }) =>
+            this.change_({ sky: target.value }),
+        );
         by_id("time-play").addEventListener("click", () => this.play(!this.playing));
         by_id("time-reset").addEventListener("click", () => this.reset());
     }
@@ -49,15 +43,14 @@ export class TimePanel {
      */
     swap(other) {
         this.play(false);
-        clearTimeout(this.rest_);
         if (this.waiting_) this.tell();
-        const { place_, file, time, touched, told, sent_ } = this;
-        const unknown = { file: null, time: null, touched: false, told: null, sent_: "" };
+        const { place_, file, time, touched, told } = this;
+        const unknown = { file: null, time: null, touched: false, told: null };
         Object.assign(this, other ?? { ...unknown, place_: undefined });
         this.show_place_();
         this.show_told_();
         this.show_();
-        return { place_, file, time, touched, told, sent_ };
+        return { place_, file, time, touched, told };
     }
 
     /** @param place  of `loaded`: {time, solar, types, latitude, longitude, refused}; missing: no generator writes a sky */
@@ -104,11 +97,9 @@ export class TimePanel {
     }
 
     /** Say the server which time it is, if that is for this page to say. */
-    tell(moving = false) {
+    tell() {
         if (!this.file || !this.touched) return;
-        const message = time_message(this.is_file_() ? null : this.time, moving);
-        this.sent_ = JSON.stringify(message);
-        this.on_.time(message);
+        this.on_.time(time_message(this.is_file_() ? null : this.time));
     }
 
     /** Whether the page drives: who watches sees the time, and cannot change it. */
@@ -135,7 +126,6 @@ export class TimePanel {
     reset() {
         this.play(false);
         this.change_({ ...this.file });
-        this.rest_now_();
     }
 
     /** Let the day run: as fast as pictures of it come, but no faster than half an hour a second. */
@@ -145,7 +135,6 @@ export class TimePanel {
         const button = by_id("time-play");
         button.setAttribute("aria-pressed", String(this.playing));
         button.textContent = this.playing ? "Stop" : "Play the day";
-        if (!this.playing) return this.rest_now_();
         this.ticked_ = performance.now();
         this.frames_ = this.on_.frames();
     }
@@ -171,20 +160,11 @@ export class TimePanel {
         this.touched = true;
         this.show_();
         this.on_.changed();
-        clearTimeout(this.rest_);
-        if (!this.playing) this.rest_ = setTimeout(() => this.rest_now_(), kRests);
         if (this.waiting_) return; // one message a refresh of the screen at most
         this.waiting_ = true;
         requestAnimationFrame(() => {
             this.waiting_ = false;
-            this.tell(true);
-        });
-    }
-
-    rest_now_() {
-        clearTimeout(this.rest_);
-        requestAnimationFrame(() => {
-            if (!this.playing && this.sent_.includes('"moving":true')) this.tell(false);
+            this.tell();
         });
     }
 

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/session/run_header.h"
 #include "apps/walk/dimmed_lights.h"
+#include "apps/walk/saved_files.h"
 #include "core/error.h"
 #include "core/math/distance.h"
 #include "core/math/overloaded.h"
-#include "io/options/view_text.h"
-#include "io/picture/picture.h"
 
 namespace lightwalk {
 namespace {
@@ -180,10 +178,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         return client_inbox_.refuse(inbox, "there is no picture yet");
     for (const WalkQuestion& question : inbox.questions) reply(question);
     for (const ClientId client : inbox.left) isolux_.forget(client);
-    for (const WebReply& file : inbox.saves) save(file);
-    for (const WebReply& file : inbox.light_saves) save_lights(file);
-    for (const WebReply& file : inbox.material_saves) save_materials(file);
-    for (const WebReply& file : inbox.sky_saves) save_sky(file);
+    save_files(inbox);
 }
 
 /// Pictures and numbers of the dimmers' new state, without a ray where all of it is known.
@@ -456,38 +451,19 @@ void RenderLoop::measure_planes(const StopFlag& stop) {
     isolux_.step(has_work() ? kBesidePictures : kAtRest, stop, client_inbox_);
 }
 
-void RenderLoop::save(const WebReply& reply) {
-    PictureHeader header{history_header(session_->compiled().model().header, options_.history)};
-    header.lines.push_back("VIEW= " + view_text(*view_));
-    for (const std::string& line : date_lines()) header.lines.push_back(line);
-    const LivePicture& shown = live_.picture();
-    reply({200, "image/vnd.radiance",
-           encode_hdr({shown.width, shown.height, shown.radiance}, header), "picture.hdr"});
-}
-
-void RenderLoop::save_lights(const WebReply& reply) const {
-    if (!groups_)
-        return reply({404, "text/plain; charset=utf-8", "no lights may be dimmed here\n", {}});
-    reply({200, "text/plain; charset=utf-8",
-           scaled_lights(session_->scene().own_modifiers(), *groups_,
-                         mixture_of(wish_.lights, *groups_)),
-           "lights.rad"});
-}
-
-void RenderLoop::save_materials(const WebReply& reply) const {
-    reply({200, "text/plain; charset=utf-8", edited_materials(model_, edits_.sound),
-           "materials.rad"});
-}
-
-void RenderLoop::save_sky(const WebReply& reply) const {
-    const SkyCalls& skies = states_->skies();
-    if (skies.empty() || !skies.refusal().empty())
-        return reply({404, "text/plain; charset=utf-8", "no generator writes the sky here\n", {}});
-    reply(
-        {200, "text/plain; charset=utf-8",
-         "# The sky of a walk's time: it stands in place of the commands that made the scene's.\n" +
-             skies.text(scene_state_.time.value_or(skies.first().time())),
-         "sky.rad"});
+void RenderLoop::save_files(const InboxContents& inbox) const {
+    const auto answer = [](const std::vector<WebReply>& replies, const auto& make) {
+        for (const WebReply& reply : replies) reply(make());
+    };
+    answer(inbox.saves, [&] {
+        return saved_picture(live_.picture(), *view_, session_->compiled().model(),
+                             options_.history);
+    });
+    answer(inbox.light_saves, [&] {
+        return saved_lights(session_->scene().own_modifiers(), groups_.get(), wish_.lights);
+    });
+    answer(inbox.material_saves, [&] { return saved_materials(model_, edits_.sound); });
+    answer(inbox.sky_saves, [&] { return saved_sky(states_->skies(), scene_state_.time); });
 }
 
 void RenderLoop::measure_probes() {

@@ -118,13 +118,10 @@ class RenderLoop {
     void dim();
     void set_time();
     void tell_time();
-    void save_sky(const WebReply& reply) const;
     [[nodiscard]] bool is_dimming() const;
-    void save_lights(const WebReply& reply) const;
-    void save_materials(const WebReply& reply) const;
     void reply(const WalkQuestion& question);
     [[nodiscard]] MaterialReply describe(const MaterialRequest& request) const;
-    void save(const WebReply& reply);
+    void save_files(const InboxContents& inbox) const;
     void measure_probes();
     void draw_plan();
     void measure_planes(const StopFlag& stop);

@@ -215,16 +215,14 @@ int whole_number(const Json& object, int low, int high, const char* name) {
 
 TimeRequest read_time(const Json& object) {
     constexpr double kDay = 24;
-    TimeRequest request{std::nullopt, truth(object, "moving")};
     const Json& wanted = field(object, "time");
-    if (wanted.is_null()) return request;
+    if (wanted.is_null()) return {};
     SkyTime time{whole_number(wanted, 1, 12, "month"), whole_number(wanted, 1, 31, "day"),
                  number(wanted, 0, kDay, "hour"), words(wanted, "sky")};
     if (!(time.hour < kDay)) refuse("hour", "less than 24");
     if (!time.type.empty() && std::ranges::find(kSkyTypes, time.type) == kSkyTypes.end())
         refuse("sky", "one of +s -s +i -i -c -u");
-    request.time = std::move(time);
-    return request;
+    return {std::move(time)};
 }
 
 PickRequest read_pick(const Json& object) {

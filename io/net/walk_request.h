@@ -68,7 +68,6 @@ struct LightsRequest {
 /// `time`: when the sky is seen that generators have written.
 struct TimeRequest {
     std::optional<SkyTime> time;  ///< nothing: as the scene's files have it
-    bool moving = false;          ///< other times will follow soon
     friend bool operator==(const TimeRequest&, const TimeRequest&) = default;
 };
 /// `pick`: the light at a point of a picture, in the image coordinates of Camera, 0 to 1.

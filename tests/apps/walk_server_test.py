@@ -234,7 +234,7 @@ def changed(program, words=(), launcher=(), light=()):
             return client.told("edited")
 
         def at(hour):
-            client.socket.send({"type": "time", "time": {"month": 9, "day": 21, "hour": hour, "sky": ""}, "moving": False})
+            client.socket.send({"type": "time", "time": {"month": 9, "day": 21, "hour": hour, "sky": ""}})
             told = client.told("time")
             assert "problem" not in told, told
 
@@ -448,7 +448,7 @@ def beside(program):
                 other.socket.send(chance.choice([
                     {"type": "view", "id": 1, "view": VIEW, "width": 4096, "height": 4096, "moving": True, "walk": True},
                     {"type": "take"}, {"type": "hand", "to": 1}, {"type": "difference", "shown": True}, {"type": "glare", "id": 3},
-                    {"type": "time", "time": {"month": 2, "day": 31, "hour": 1, "sky": ""}, "moving": False},
+                    {"type": "time", "time": {"month": 2, "day": 31, "hour": 1, "sky": ""}},
                     {"type": "edits", "id": 4, "materials": [{"name": "grey", "definition": 0, "kind": "plastic", "reals": [chance.random()] * 3 + [0, 0]}]},
                     {"type": "edits", "id": 5, "materials": [{"name": "none", "definition": 9, "kind": "glass", "reals": [-1]}]},
                     {"type": "isolux", "id": 6, "position": VIEW["position"], "height": 0.75}]))

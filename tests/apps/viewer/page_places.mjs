@@ -82,6 +82,39 @@ export const place_steps = (address) => ({
         await shown(page);
     },
 
+    async "a drag between two clicks makes no double click of them"(page) {
+        await page.keyboard.press("2");
+        await page.waitForTimeout(500);
+        await shown(page);
+        const before = await value(page, "eye");
+        // All at one time: a busy machine would take too long for a double click.
+        await page.evaluate(() => {
+            const event = (type, x) =>
+                new PointerEvent(type, {
+                    ...{ clientX: x, clientY: 430, bubbles: true },
+                    pointerId: 1,
+                });
+            const surface = document.querySelector("#picture");
+            surface.setPointerCapture = () => {};
+            const press = (...places) => {
+                surface.dispatchEvent(event("pointerdown", places[0]));
+                for (const x of places) surface.dispatchEvent(event("pointermove", x));
+                surface.dispatchEvent(event("pointerup", places.at(-1)));
+            };
+            press(500);
+            press(500, 520, 500);
+            press(500);
+            delete surface.setPointerCapture;
+        });
+        await page.waitForTimeout(500);
+        await shown(page);
+        assert.ok(gone(before, await value(page, "eye")) < 1e-6, "it went there");
+        await page.keyboard.press("Escape");
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+    },
+
     async "full screen by a key"(page) {
         await page.focus("#picture");
         await page.keyboard.press("z");

@@ -55,5 +55,5 @@ test("what is not exact yet is said", () => {
 });
 
 test("the message is what the protocol says", () => {
-    assert.deepEqual(time_message(null, false), { type: "time", time: null, moving: false });
+    assert.deepEqual(time_message(null), { type: "time", time: null });
 });

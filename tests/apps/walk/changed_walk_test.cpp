@@ -16,9 +16,8 @@ namespace {
 const std::string kPins =
     R"({"type":"probes","probes":[{"id":3,"position":[2,2,0],"normal":[0,0,1]}]})";
 
-std::string time_of(const std::string& hour, bool moving = false, const std::string& sky = "") {
-    return R"({"type":"time","time":{"month":9,"day":21,"hour":)" + hour + R"(,"sky":")" + sky +
-           R"("},"moving":)" + (moving ? "true}" : "false}");
+std::string time_of(const std::string& hour) {
+    return R"({"type":"time","time":{"month":9,"day":21,"hour":)" + hour + R"(,"sky":""}})";
 }
 
 nlohmann::json last_of(const RecordedClients& clients, ClientId client, const std::string& type) {
@@ -78,7 +77,7 @@ TEST_CASE("changed walk: at another hour it is the walk of the scene that names 
     CHECK_FALSE(told.contains("problem"));
     CHECK(walk.saved("sky.rad").find("gensky 9 21 9.5000") != std::string::npos);
     // Back to what the files say.
-    walk.inbox.message(kDriver, R"({"type":"time","time":null,"moving":false})");
+    walk.inbox.message(kDriver, R"({"type":"time","time":null})");
     settle(walk);
     CHECK(pixels_of(walk) == before);
 }
@@ -93,7 +92,7 @@ TEST_CASE("changed walk: while the hour is drawn pictures are small, then there 
     const int whole = width();
     for (const std::string hour : {"9", "10", "11", "12"}) {
         const std::size_t seen = walk.clients.frames_of(kDriver);
-        walk.inbox.message(kDriver, time_of(hour, true));
+        walk.inbox.message(kDriver, time_of(hour));
         for (int i = 0; i < 100 && walk.clients.frames_of(kDriver) == seen; ++i) {
             walk.acknowledge(kDriver);
             walk.loop->step(walk.stop);

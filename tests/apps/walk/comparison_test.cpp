@@ -21,8 +21,7 @@ constexpr ClientId kBeside{7}, kStranger{8};
 const std::string kDriversSession = "0123456789abcde1", kWatchersSession = "0123456789abcde2";
 
 std::string hour_message(const std::string& hour) {
-    return R"({"type":"time","time":{"month":9,"day":21,"hour":)" + hour +
-           R"(,"sky":""},"moving":false})";
+    return R"({"type":"time","time":{"month":9,"day":21,"hour":)" + hour + R"(,"sky":""}})";
 }
 
 std::string green_message(int id) {

@@ -40,7 +40,7 @@ const std::vector<std::string> kSound{
     R"({"type":"isolux","id":7,"position":[1,2,0.5],"normal":[0,0,4]})",
     R"({"type":"isolux","id":8,"position":[1,2,1.6],"height":0.75})",
     R"({"type":"material","id":9,"x":0.5,"y":0.25})",
-    R"({"type":"time","time":{"month":9,"day":21,"hour":14.3,"sky":"+s"},"moving":true})",
+    R"({"type":"time","time":{"month":9,"day":21,"hour":14.3,"sky":"+s"}})",
     R"({"type":"difference","shown":true})",
 };
 
@@ -352,9 +352,7 @@ TEST_CASE("walk request: whether frames shall have depth may be missing, and the
 
 TEST_CASE("walk request: a time is a day, an hour and a kind of sky, or that of the files") {
     constexpr std::size_t kTime = 17;
-    const auto request = read<TimeRequest>(sound(kTime));
-    CHECK(request.moving);
-    CHECK(request.time == SkyTime{9, 21, 14.3, "+s"});
+    CHECK(read<TimeRequest>(sound(kTime)).time == SkyTime{9, 21, 14.3, "+s"});
     json message = sound(kTime);
     message["time"] = nullptr;
     CHECK(read<TimeRequest>(message).time == std::nullopt);
