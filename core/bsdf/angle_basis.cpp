@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace lightwalk {
 namespace {
@@ -49,9 +50,32 @@ std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     // Counted without branches, which jittered directions would take at random.
     std::size_t ring = 0;
     for (const double outer : outer_) ring += square >= outer ? 1 : 0;
+    return patch_of(ring, pseudo_azimuth(p));
+}
+
+/// Sums, divisions and choices are those of index(), of all directions at once.
+PatchNumbers AngleBasis::indices(const NearDirections& p) const {
+    alignas(32) std::array<double, kNearDirections> square, azimuth;
+    alignas(32) std::array<std::uint64_t, kNearDirections> ring{};
+    for (std::size_t i = 0; i < kNearDirections; ++i) square[i] = p.x[i] * p.x[i] + p.y[i] * p.y[i];
+    for (const double outer : outer_) {
+        for (std::size_t i = 0; i < kNearDirections; ++i) ring[i] += square[i] >= outer ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < kNearDirections; ++i) {
+        const double size = std::abs(p.x[i]) + std::abs(p.y[i]);
+        const double height = p.y[i] / (size > 0 ? size : 1);
+        const double right = height < 0 ? 4 + height : height;
+        azimuth[i] = p.x[i] < 0 ? 2 - height : right;
+    }
+    PatchNumbers patches;
+    for (std::size_t i = 0; i < kNearDirections; ++i) patches[i] = patch_of(ring[i], azimuth[i]);
+    return patches;
+}
+
+/// @param azimuth  as pseudo_azimuth() has it
+std::size_t AngleBasis::patch_of(std::size_t ring, double azimuth) const {
     const std::size_t sectors = rings_[ring].sectors;
     if (sectors == 1) return places_[ring].first;
-    const double azimuth = pseudo_azimuth(p);
     const double* ends = &ends_[places_[ring].ends];
     auto sector =
         static_cast<std::size_t>(std::floor(azimuth * 0.25 * static_cast<double>(sectors) + 0.5));

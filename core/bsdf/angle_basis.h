@@ -3,6 +3,7 @@
 // equal sectors. Source: Klems, "A new method for predicting the solar heat gain of complex
 // fenestration systems", ASHRAE Transactions 100 (1994); the names and their numbers: LBNL WINDOW's
 // technical documentation, and genBSDF's manual page.
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -21,6 +22,13 @@ struct ProjectedDirection {
 [[nodiscard]] inline Vec3 above_disk(const ProjectedDirection& p) {
     return {p.x, p.y, std::sqrt(std::max(0.0, 1 - p.x * p.x - p.y * p.y))};
 }
+
+/// Directions that are looked up together: side by side, as vectors of a processor have them.
+inline constexpr std::size_t kNearDirections = 4;
+struct NearDirections {
+    alignas(32) std::array<double, kNearDirections> x{}, y{};
+};
+using PatchNumbers = std::array<std::size_t, kNearDirections>;
 
 /// A ring as files describe it.
 struct AngleRing {
@@ -42,6 +50,8 @@ class AngleBasis {
     [[nodiscard]] std::size_t size() const { return patch_count_; }
     /// The number of the patch that holds a direction.
     [[nodiscard]] std::size_t index(const ProjectedDirection& p) const;
+    /// The same for several at once.
+    [[nodiscard]] PatchNumbers indices(const NearDirections& p) const;
     /// A patch's projected solid angle [sr].
     [[nodiscard]] double solid_angle(std::size_t patch) const { return areas_[patch]; }
     /// The smallest of these.
@@ -58,6 +68,7 @@ class AngleBasis {
         std::size_t ends = 0;         ///< where the ring's begin in ends_
     };
     [[nodiscard]] std::size_t ring_of(std::size_t patch) const;
+    [[nodiscard]] std::size_t patch_of(std::size_t ring, double azimuth) const;
 
     std::vector<AngleRing> rings_;
     std::vector<Place> places_;  ///< one a ring

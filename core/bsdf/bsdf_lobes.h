@@ -51,6 +51,15 @@ class BsdfLobes {
     [[nodiscard]] Value value_for(const BsdfLookup& e, const ProjectedDirection& l) const {
         return value(e, look_up_light(l));
     }
+    /// The values of several directions to the viewer for one light. Matrices look all of them up
+    /// at once.
+    [[nodiscard]] virtual std::array<Value, kNearDirections> values_near(
+        const NearDirections& e, const BsdfLookup& l) const {
+        std::array<Value, kNearDirections> values;
+        for (std::size_t i = 0; i < kNearDirections; ++i)
+            values[i] = value(look_up({e.x[i], e.y[i]}), l);
+        return values;
+    }
     /// The directional-hemispherical total: the integral of f over projected solid angle.
     [[nodiscard]] virtual double total(const BsdfLookup& e) const = 0;
     /// A direction of probability f / total over projected solid angle, for total(e) > 0.

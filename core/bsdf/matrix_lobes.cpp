@@ -21,7 +21,11 @@ class MatrixLobes final : public BsdfLobes {
     [[nodiscard]] BsdfLookup look_up_light(const ProjectedDirection& l) const override {
         return {l, column_of(l), {}};
     }
-    [[nodiscard]] Value value(const BsdfLookup& e, const BsdfLookup& l) const override;
+    [[nodiscard]] Value value(const BsdfLookup& e, const BsdfLookup& l) const override {
+        return value_at(e.patch, l.patch);
+    }
+    [[nodiscard]] std::array<Value, kNearDirections> values_near(
+        const NearDirections& e, const BsdfLookup& l) const override;
     [[nodiscard]] double total(const BsdfLookup& e) const override { return totals_[e.patch]; }
     [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
@@ -48,6 +52,7 @@ class MatrixLobes final : public BsdfLobes {
     void split_grey();
     void split_colored(const BsdfMatrix& table);
     void add_up();
+    [[nodiscard]] Value value_at(std::size_t row, std::size_t column) const;
     /// e is the incident direction as light travels, or the exitant one.
     [[nodiscard]] std::size_t row_of(const ProjectedDirection& e) const {
         return rows_.index(reversed_ ? e : ProjectedDirection{-e.x, -e.y});
@@ -131,10 +136,23 @@ void MatrixLobes::add_up() {
     }
 }
 
-BsdfLobes::Value MatrixLobes::value(const BsdfLookup& e, const BsdfLookup& l) const {
-    const std::size_t row = e.patch, column = l.patch, at = row * columns_.size() + column;
+BsdfLobes::Value MatrixLobes::value_at(std::size_t row, std::size_t column) const {
+    const std::size_t at = row * columns_.size() + column;
     const Rgb f = tints_.empty() ? Rgb::grey(values_[at]) : tints_[at] * values_[at];
     return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column, true};
+}
+
+std::array<BsdfLobes::Value, kNearDirections> MatrixLobes::values_near(const NearDirections& e,
+                                                                       const BsdfLookup& l) const {
+    NearDirections named = e;  // as row_of()
+    for (std::size_t i = 0; i < kNearDirections && !reversed_; ++i) {
+        named.x[i] = -e.x[i];
+        named.y[i] = -e.y[i];
+    }
+    const PatchNumbers rows = rows_.indices(named);
+    std::array<Value, kNearDirections> values;
+    for (std::size_t i = 0; i < kNearDirections; ++i) values[i] = value_at(rows[i], l.patch);
+    return values;
 }
 
 BsdfLobes::Sample MatrixLobes::sample(const BsdfLookup& e, double choice, double xi1,

@@ -13,6 +13,7 @@ namespace {
 /// Of numbers that -ss below 1 narrows. Beside the very middle, where patches of another basis
 /// meet.
 constexpr double kMiddle = 0.5 + 1e-9;
+constexpr int kNear = static_cast<int>(kNearDirections);
 constexpr double kSmallestNeighbour = 0.12;  ///< smaller cells do not count in a cell's mean
 
 /// What is sampled of a component, or why not.
@@ -97,6 +98,29 @@ ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_sam
     return {moved.x, moved.y};
 }
 
+NearDirections jittered_near(const BsdfHit& hit, double size, double specular_samples,
+                             RandomStream& random) {
+    const double reach = size * std::min(specular_samples, 1.0);
+    alignas(32) std::array<double, kNearDirections> square;
+    NearDirections moved;
+    for (std::size_t i = 0; i < kNearDirections; ++i) {
+        moved.x[i] = random.next();
+        moved.y[i] = random.next();
+    }
+    for (std::size_t i = 0; i < kNearDirections; ++i) {
+        moved.x[i] = hit.e.x + reach * (0.5 - moved.x[i]);
+        moved.y[i] = hit.e.y + reach * (0.5 - moved.y[i]);
+        square[i] = std::fma(hit.height, hit.height,
+                             std::fma(moved.x[i], moved.x[i], moved.y[i] * moved.y[i]));
+    }
+    for (std::size_t i = 0; i < kNearDirections; ++i) {
+        const double inverse = 1 / std::sqrt(square[i]);
+        moved.x[i] *= inverse;
+        moved.y[i] *= inverse;
+    }
+    return moved;
+}
+
 BsdfDirect::BsdfDirect(const BsdfHit& hit, Ray& ray, const RenderOptions& options)
     : hit_(hit),
       specular_samples_(options.specular_samples),
@@ -137,12 +161,15 @@ Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l
     const double size = std::sqrt(at.solid_angle);
     Rgb sum;
     int counted = 0;
-    for (int i = 0; i < count_; ++i) {
-        const ProjectedDirection e = jittered(hit_, size, specular_samples_, random);
-        const BsdfLobes::Value near = lobes.value(lobes.look_up(e), light);
-        if (near.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
-        ++counted;
-        if (near.has_lobe) sum += near.f + lambertian;
+    for (int first = 0; first < count_; first += kNear) {
+        const auto near =
+            lobes.values_near(jittered_near(hit_, size, specular_samples_, random), light);
+        for (int i = 0; i < std::min(kNear, count_ - first); ++i) {
+            const BsdfLobes::Value& value = near[static_cast<std::size_t>(i)];
+            if (value.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
+            ++counted;
+            if (value.has_lobe) sum += value.f + lambertian;
+        }
     }
     return counted > 0 ? without(sum * (1 / static_cast<float>(counted)), lambertian) : Rgb{};
 }

@@ -55,6 +55,10 @@ void look_up_viewer(BsdfHit& hit);
 [[nodiscard]] ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,
                                           RandomStream& random);
 
+/// Several of these, from a stream of independent numbers, at once.
+[[nodiscard]] NearDirections jittered_near(const BsdfHit& hit, double size, double specular_samples,
+                                           RandomStream& random);
+
 /// Shades the light of single sources.
 class BsdfDirect {
   public:

@@ -64,7 +64,13 @@ XmlNumbers::XmlNumbers(const XmlText& document, const pugi::xml_node& element)
     : document_(document), element_(element), at_(element.offset_debug()) {
     for (piece_ = element.first_child(); piece_ && !is_text(piece_); piece_ = piece_.next_sibling())
         ;
-    if (piece_) rest_ = piece_.value();
+    begin_piece();
+}
+
+void XmlNumbers::begin_piece() {
+    text_ = piece_ ? std::string_view(piece_.value()) : std::string_view();
+    text_at_ = piece_.offset_debug();
+    rest_ = text_;
 }
 
 /// Texts with a comment between them are several pieces.
@@ -72,7 +78,7 @@ void XmlNumbers::next_piece() {
     do {
         piece_ = piece_.next_sibling();
     } while (piece_ && !is_text(piece_));
-    rest_ = piece_ ? std::string_view(piece_.value()) : std::string_view();
+    begin_piece();
 }
 
 XmlNumbers::Token XmlNumbers::next() {
@@ -83,7 +89,7 @@ XmlNumbers::Token XmlNumbers::next() {
         next_piece();
     }
     if (!piece_) return last_ = Token::end;
-    at_ = piece_.offset_debug() + (rest_.data() - piece_.value());
+    at_ = text_at_ + (rest_.data() - text_.data());
     if (rest_[0] != '{' && rest_[0] != '}') return last_ = read_number();
     last_ = rest_[0] == '{' ? Token::open : Token::close;
     rest_.remove_prefix(1);
@@ -91,9 +97,19 @@ XmlNumbers::Token XmlNumbers::next() {
 }
 
 XmlNumbers::Token XmlNumbers::read_number() {
+    const std::size_t simple = parse_simple_real(rest_, value_);
+    if (simple > 0 && (simple == rest_.size() || ends_number(rest_[simple])) &&
+        std::abs(value_) <= kLargest) {
+        rest_.remove_prefix(simple);
+        return Token::number;
+    }
+    return read_any_number();
+}
+
+XmlNumbers::Token XmlNumbers::read_any_number() {
     const auto end = std::ranges::find_if(rest_, ends_number);
     const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
-    if (parse_simple_real(word, value_) != word.size() && !parse_real(word, value_))
+    if (!parse_real(word, value_))
         throw error("found \"" + std::string(word.substr(0, 40)) + "\", expected a number");
     if (!(std::abs(value_) <= kLargest))
         throw error("the number " + std::string(word.substr(0, 40)) + " is out of range");

@@ -60,12 +60,15 @@ class XmlNumbers {
 
   private:
     void next_piece();
+    void begin_piece();
     Token read_number();
+    Token read_any_number();
 
     const XmlText& document_;
     pugi::xml_node element_, piece_;
-    std::string_view rest_;  ///< of the piece
-    std::ptrdiff_t at_ = 0;  ///< offset of the last token in the file
+    std::string_view text_, rest_;  ///< of the piece, and what is left of it
+    std::ptrdiff_t text_at_ = 0;    ///< offset of the piece in the file
+    std::ptrdiff_t at_ = 0;         ///< offset of the last token in the file
     Token last_ = Token::end;
     double value_ = 0;
 };

@@ -62,3 +62,26 @@ TEST_CASE(
     CHECK(at(23) == 2);
     CHECK(at(-23) == 8);
 }
+
+TEST_CASE(
+    "angle bases: directions that are looked up together are in the patches that each is in") {
+    for (const AngleBasis& basis :
+         {*klems_basis("LBNL/Klems Full"), *klems_basis("LBNL/Klems Half"),
+          *klems_basis("LBNL/Klems Quarter"), AngleBasis({{90, 1}})}) {
+        RandomStream random(5);
+        for (int k = 0; k < 2000; ++k) {
+            NearDirections near;
+            for (std::size_t i = 0; i < kNearDirections; ++i) {
+                const double radius = std::sqrt(random.next()), azimuth = 2 * kPi * random.next();
+                near.x[i] = radius * std::cos(azimuth);
+                near.y[i] = radius * std::sin(azimuth);
+            }
+            // Directions on the axes, and the pole.
+            if (k < 100) near.x[static_cast<std::size_t>(k) % kNearDirections] = k % 3 ? 0.0 : -0.0;
+            if (k < 50) near.y[static_cast<std::size_t>(k) % kNearDirections] = k % 5 ? 0.0 : -0.0;
+            const PatchNumbers patches = basis.indices(near);
+            for (std::size_t i = 0; i < kNearDirections; ++i)
+                CHECK(patches[i] == basis.index({near.x[i], near.y[i]}));
+        }
+    }
+}

@@ -122,6 +122,31 @@ void check_samples(const BsdfLobes& lobes, ProjectedDirection e) {
 
 }  // namespace
 
+TEST_CASE("BSDF: values of several directions about the viewer's are those of each") {
+    for (const BsdfTable& table : {BsdfTable(matrix_of(lobe)), BsdfTable(tree_of(lobe, 3))}) {
+        const Bsdf bsdf = bsdf_of(BsdfPart::front_transmission, table);
+        for (const bool front : {true, false}) {  // in reverse from behind
+            const BsdfLobes& lobes = *bsdf.transmission(front).lobes;
+            for (const ProjectedDirection& l : kDirections) {
+                const BsdfLookup light = lobes.look_up_light(l);
+                NearDirections near;
+                for (std::size_t i = 0; i < kNearDirections; ++i) {
+                    near.x[i] = kDirections[i].x;
+                    near.y[i] = kDirections[i].y;
+                }
+                const auto values = lobes.values_near(near, light);
+                for (std::size_t i = 0; i < kNearDirections; ++i) {
+                    const BsdfLobes::Value one = lobes.value(lobes.look_up(kDirections[i]), light);
+                    CHECK(values[i].f == one.f);
+                    CHECK(values[i].solid_angle == one.solid_angle);
+                    CHECK(values[i].cell == one.cell);
+                    CHECK(values[i].has_lobe == one.has_lobe);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("BSDF lobes: the total is the integral of the values") {
     const Bsdf bsdfs[] = {bsdf_of(BsdfPart::front_transmission, matrix_of(lobe)),
                           bsdf_of(BsdfPart::front_transmission, tree_of(lobe, 3)),
