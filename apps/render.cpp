@@ -81,6 +81,7 @@ class RenderRun final : CommandRun {
 
     [[nodiscard]] RendererRequest task() {
         RendererRequest task = request();
+        task.options.light.sample_lights = sample_lights();
         if (reuses()) {
             task.options.reuse = std::make_shared<const CloudOptions>(command_.walk->cloud);
             task.options.frames = walk_length(*command_.walk);
@@ -90,6 +91,16 @@ class RenderRun final : CommandRun {
         };
         task.options.progress_interval = printer_.interval();
         return task;
+    }
+
+    /// Light sources at the end of each ray; 0: all of them.
+    [[nodiscard]] int sample_lights() const {
+        const PixelOptions& pixels = options().pixels;
+        constexpr int kAutomatic = 8;
+        if (pixels.samples <= 1) return 0;
+        if (command_.sample_lights) return *command_.sample_lights;
+        // Layers are made for lights that may be turned up later.
+        return reuses() || command_.output.layers ? 0 : kAutomatic;
     }
 
     [[nodiscard]] RendererOptions& options() const { return command_.common.request.options; }

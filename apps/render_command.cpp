@@ -46,6 +46,20 @@ std::vector<OptionRow> view_rows(RenderCommand& c, const Files& files) {
     return rows;
 }
 
+/// "auto", or a number.
+CustomOption sample_lights(std::optional<int>& lights) {
+    const auto take = [&lights](OptionWords& words) {
+        const std::string word = words.text();
+        long count = 0;
+        const bool automatic = word == "auto";
+        if (!automatic && !(parse_integer(word, count) && count >= 0 && count <= 4096))
+            refuse_argument("--sample-lights", "auto or a number of lights, 0 for all",
+                            '"' + word + '"');
+        lights = automatic ? std::nullopt : std::optional(static_cast<int>(count));
+    };
+    return {take, [&lights] { return lights ? std::to_string(*lights) : "auto"; }};
+}
+
 std::vector<OptionRow> pixel_rows(RenderCommand& c) {
     PixelOptions& p = c.common.request.options.pixels;
     return {
@@ -78,6 +92,11 @@ std::vector<OptionRow> pixel_rows(RenderCommand& c) {
          "powers of two (-ps is then 1 and -pj does not count; -z tells the distance along the ray "
          "nearest to the pixel's centre)",
          With{.least = 1, .most = 65536}},
+        {"--sample-lights auto|N", sample_lights(c.sample_lights),
+         "with --samples, N light sources, chosen by what they may bring, stand for all where more "
+         "than twice as many may "
+         "bring something: the same mean, more noise a ray, less time; auto: 8; 0: all are sampled",
+         With{.commands = kRender | kAnimate}},
         {"-S N", &c.first_frame,
          "a picture for each view line on standard input, numbered from N; -o f%03d.hdr names them",
          With{.least = 1,

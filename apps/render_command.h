@@ -21,6 +21,7 @@ struct RenderCommand {
     double pixel_aspect = 1;            ///< -pa: height / width; 0: exactly -x by -y
     bool spacing_given = false;         ///< -ps was named
     SeriesOutput output;                ///< -o -z -pc -pXYZ --exposure --tone
+    std::optional<int> sample_lights;   ///< --sample-lights; nothing: auto
     std::string checkpoint;             ///< --checkpoint; "" is none
     bool resume = false;                ///< --resume
     double report_interval = 0;         ///< -t [s]

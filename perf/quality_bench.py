@@ -3,13 +3,13 @@
 pfilt; needs python3-numpy.
 
   quality_bench.py --radiance DIR [--scenes DIR] [--lightwalk PROGRAM] [--views NAME,...] [--samples 4,9,16] [--larger 2,3]
-                   [--size 320x240] [--converged 16] [--runs 1] [--keep DIR]
+                   [--size 320x240] [--converged 16] [--runs 1] [--keep DIR] [--options "WORDS"]
 
 --radiance holds Radiance's oconv, rpict and pfilt (without it Lightwalk stands alone), --scenes its sample models: DIR/cabin and DIR/lib. Views are
-the cabin by day (living, interior) and by night, and the demo scene (lodge, lodge-evening): direct light alone, -dj .7. Both filter
+the cabin by day (living, interior) and by night, the demo scene (lodge, lodge-evening), and an office of 64 lamps: direct light alone, -dj .7. Both filter
 with the Gaussian exp(-(r / .6)^2), r in pixels, which pfilt -r .6 ends at 1.3 pixels (seen in what it makes of a single bright pixel). The error is the mean of
 |L - R| / R over pixels; R is the mean of two converged pictures, so that nobody is judged by noise of his own: rpict's at --converged times
-the size with pfilt, and Lightwalk's of as many rays (another seed). --keep is a folder where they are kept for the next time.
+the size with pfilt, and Lightwalk's of as many rays (another seed). --keep is a folder where they are kept for the next time. --options are more words for lightwalk.
 
 One line a picture, tab-separated: view, program, rays a pixel, error, processor seconds of whole processes on one thread (median
 of --runs; rpict with pfilt, without oconv). Then for each of rpict's pictures how many times as fast Lightwalk is at its error, by interpolation
@@ -21,6 +21,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
+import office
 from walk import pictures
 
 CABIN = "pattmats cabin bathroom furniture winpanes.rad mirrors.rad"
@@ -31,16 +32,26 @@ VIEWS = {  # folder, view, files
     "night": ("cabin", "vf/living2", f"{CABIN} lights"),
     "lodge": ("lodge", "views/living.vf", "lodge.rad day.rad"),
     "lodge-evening": ("lodge", "views/living.vf", "lodge.rad night.rad"),
+    "office": ("office", "office.vf", "office.rad"),
 }
 OPTIONS = "-pa 0 -ps 1 -dj .7 -ab 0 -av .01 .01 .01".split()
 RADIUS = ".6"
+
+
+def make_office(folder):
+    """64 lamps in one room."""
+    folder.mkdir()
+    (folder / "office.rad").write_text(office.office())
+    (folder / "office.vf").write_text("rvu -vtv " + " ".join(office.VIEW) + "\n")
+    return str(folder)
 
 
 class Bench:
     def __init__(self, arguments, name, scratch):
         place, self.view, words = VIEWS[name]
         self.arguments, self.name, self.scratch, self.words = arguments, name, pathlib.Path(scratch), words.split()
-        self.folder = os.path.join(arguments.scenes or "", "cabin") if place == "cabin" else str(HERE.parent / "apps/scenes/lodge")
+        self.folder = (os.path.join(arguments.scenes or "", "cabin") if place == "cabin"
+                       else str(HERE.parent / "apps/scenes/lodge") if place == "lodge" else make_office(self.scratch / place))
         self.environment = dict(os.environ, RAYPATH=os.pathsep.join([".", "../lib", arguments.library or "."]))
         self.keep = pathlib.Path(arguments.keep or scratch)
         if arguments.radiance:
@@ -62,7 +73,7 @@ class Bench:
         width, height = self.arguments.size
         return self.processor_seconds(
             [self.arguments.lightwalk, "render", "--quiet", "-n", "1", "--seed", str(seed), "-vf", self.view, *OPTIONS, "-x", str(width),
-             "-y", str(height), "--samples", str(samples), *self.words], out)
+             "-y", str(height), "--samples", str(samples), *self.arguments.options, *self.words], out)
 
     def rpict(self, larger, out):
         width, height = self.arguments.size
@@ -148,6 +159,7 @@ def main():
     parser.add_argument("--converged", type=int, default=16)
     parser.add_argument("--runs", type=int, default=1)
     parser.add_argument("--keep")
+    parser.add_argument("--options", type=str.split, default=[])
     arguments = parser.parse_args()
     for name in ("lightwalk", "scenes", "radiance", "library"):
         path = getattr(arguments, name)

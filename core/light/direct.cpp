@@ -55,7 +55,7 @@ std::span<const float> DirectCalculation::remaining_sums(const ShadingPoint& poi
 void DirectCalculation::run(std::span<const DirectRequest> requests) {
     gather(requests);
     for (ShadingPoint& point : scratch_.points) {
-        if (point.chosen) choose_candidates(point);
+        if (point.chosen && !point.sampled) choose_candidates(point);
         plan(point);
     }
     sort();
@@ -69,8 +69,8 @@ void DirectCalculation::run(std::span<const DirectRequest> requests) {
 /// Which of the point's candidates are to be tested, and in which order.
 void DirectCalculation::plan(ShadingPoint& point) {
     const RenderOptions& options = tracer_.options();
-    bool all =
-        options.shadow_threshold <= 0 || point.count <= kFirstBlock || context_.asks_coefficients();
+    bool all = options.shadow_threshold <= 0 || point.sampled || point.count <= kFirstBlock ||
+               context_.asks_coefficients();
     for (std::size_t i = 0; i < point.count && !all && point.count <= kFewPatterned; ++i)
         all = ranked(point, i).state == CandidateState::unknown;
     point.adaptive = !all;

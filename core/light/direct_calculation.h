@@ -66,10 +66,13 @@ class DirectCalculation {
                                                               const Vec3& direction);
 
     // direct_choice.cpp
-    [[nodiscard]] std::span<const std::uint32_t> choose_sources(const ShadingPoint& point);
+    [[nodiscard]] std::span<const std::uint32_t> choose_sources(ShadingPoint& point);
     void choose_candidates(ShadingPoint& point);
-    [[nodiscard]] std::size_t wanted_lights() const {
-        return static_cast<std::size_t>(tracer_.options().ambient_lights);
+    /// How many lights stand for all; 0: none do.
+    [[nodiscard]] std::size_t wanted_lights(const ShadingPoint& point) const {
+        const RenderOptions& options = tracer_.options();
+        if (point.ray->in(kAmbient)) return static_cast<std::size_t>(options.ambient_lights);
+        return lights_.many_for_samples() ? static_cast<std::size_t>(options.sample_lights) : 0;
     }
 
     // direct_shadows.cpp

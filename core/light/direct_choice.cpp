@@ -1,7 +1,9 @@
-// Direct light where ambient rays arrive: of many sources, and then of many candidates, a few stand
-// for all. Each such point is one of hundreds in a hemisphere's mean, to which a shadow ray more
-// adds less than another point would.
+// Direct light where a few of many sources stand for all. Where ambient rays arrive each point is
+// one of hundreds in a hemisphere's mean, to which a shadow ray more adds less than another point
+// would: there the candidates are chosen from once more. The samples of a pixel share its lights
+// among themselves.
 #include <algorithm>
+#include <span>
 
 #include "core/light/direct_calculation.h"
 
@@ -16,16 +18,26 @@ double random_of(const ShadingPoint& point, int choice) {
     return child.next();
 }
 
+/// Whether so many of a point's lights bring something that those of a pixel's samples are chosen.
+bool is_worth_choosing(std::span<const float> sizes, std::size_t wanted) {
+    const auto none = static_cast<std::size_t>(std::count(sizes.begin(), sizes.end(), 0.0f));
+    return sizes.size() - none > kManyLights * wanted;
+}
+
 }  // namespace
 
 /// A few real sources, and all virtual ones: most of their samples pass the redirecting surface by.
-std::span<const std::uint32_t> DirectCalculation::choose_sources(const ShadingPoint& point) {
+std::span<const std::uint32_t> DirectCalculation::choose_sources(ShadingPoint& point) {
     const std::span<const std::int32_t> sampled = lights_.sampled();
     scratch_.choice.sizes.resize(sampled.size());
     scratch_.choice.scales.assign(lights_.all().size(), 1);
     lights_.boxes().rate(scratch_.gather.views, point.one_sided, scratch_.choice.sizes);
-    choose_lights(scratch_.choice.sizes, wanted_lights(), random_of(point, 0),
-                  scratch_.choice.chosen);
+    const std::size_t wanted = wanted_lights(point);
+    if (point.sampled && !is_worth_choosing(scratch_.choice.sizes, wanted)) {
+        point.chosen = point.sampled = false;
+        return lights_.each();
+    }
+    choose_lights(scratch_.choice.sizes, wanted, random_of(point, 0), scratch_.choice.chosen);
     std::vector<std::uint32_t>& which = scratch_.choice.sources;
     which.clear();
     for (const LightChoice& choice : scratch_.choice.chosen) {
@@ -40,7 +52,7 @@ std::span<const std::uint32_t> DirectCalculation::choose_sources(const ShadingPo
 
 /// Of the point's candidates a few, which bring more for it.
 void DirectCalculation::choose_candidates(ShadingPoint& point) {
-    if (point.count <= wanted_lights()) return;
+    if (point.count <= wanted_lights(point)) return;
     scratch_.choice.sizes.clear();
     for (std::size_t i = 0; i < point.count; ++i) {
         const LightCandidate& candidate = ranked(point, i);
@@ -49,7 +61,7 @@ void DirectCalculation::choose_candidates(ShadingPoint& point) {
                                             ? brightness(candidate.coefficient) * source.worth
                                             : candidate.brightness * visible_share(source));
     }
-    choose_lights(scratch_.choice.sizes, wanted_lights(), random_of(point, 1),
+    choose_lights(scratch_.choice.sizes, wanted_lights(point), random_of(point, 1),
                   scratch_.choice.chosen);
     for (std::size_t i = 0; i < scratch_.choice.chosen.size(); ++i) {
         const LightChoice& choice = scratch_.choice.chosen[i];

@@ -29,7 +29,8 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
     for (const DirectRequest& request : requests) {
         ShadingPoint& point = scratch_.points.emplace_back(request);
         point.part_size = partition_size(tracer_.options().source_subdivision, point.start.weight);
-        point.chosen = tracer_.options().ambient_lights > 0 && point.ray->in(kAmbient);
+        point.chosen = wanted_lights(point) > 0;
+        point.sampled = point.chosen && !point.ray->in(kAmbient);
     }
     for (std::uint32_t number = 0; number < scratch_.points.size(); ++number) {
         ShadingPoint& point = scratch_.points[number];

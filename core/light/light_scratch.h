@@ -50,6 +50,7 @@ struct ShadingPoint {
     bool clear_air = false;  ///< the medium takes nothing
     bool clipped = false;    ///< antimatter: every light has to be followed by a ray
     bool chosen = false;     ///< a few samples stand for all: direct_choice.cpp
+    bool sampled = false;    ///< chosen, and one of a pixel's samples: all candidates are tested
     bool limited = false;    ///< an aft clipping plane cuts rays that go through the surface
     bool adaptive = false;   ///< tested brightest first, until the others cannot matter
     DirectCoefficient coefficient;

@@ -38,7 +38,10 @@ void LightSources::finalize(const LightTransport& tracer, WarningSink& warnings,
                             const TaskRunner& task_runner, const LightSources* alike) {
     index_sources();
     find_scattered(warnings);
-    const bool chosen = options_.ambient_bounces > 0 && options_.ambient_lights > 0;
+    const bool many = options_.sample_lights > 0 &&
+                      sampled_.size() - virtual_count_ >
+                          kManyLights * static_cast<std::size_t>(options_.sample_lights);
+    const bool chosen = many || (options_.ambient_bounces > 0 && options_.ambient_lights > 0);
     if (options_.shadow_threshold > 0 && alike != nullptr && !chosen) {
         assert(alike->sources_.size() == sources_.size());
         for (std::size_t i = 0; i < sources_.size(); ++i)
@@ -52,6 +55,7 @@ void LightSources::finalize(const LightTransport& tracer, WarningSink& warnings,
     for (std::size_t i = 0; i < emissions.size(); ++i)
         sources_[i].worth = emissions[i] * visible_share(sources_[i]);
     boxes_.set_worths(sources_, sampled_);
+    many_for_samples_ = many;
 }
 
 bool LightSources::shine() const {

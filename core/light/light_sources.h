@@ -16,6 +16,10 @@
 
 namespace lightwalk {
 
+/// Of more lights than this times the wanted ones some are chosen for the samples of a pixel: with
+/// fewer the noise costs more than the shadow rays that are spared.
+inline constexpr std::size_t kManyLights = 2;
+
 class LightSources {
   public:
     /// The real sources. Throws InputError (see collect_sources).
@@ -39,6 +43,9 @@ class LightSources {
     [[nodiscard]] std::span<const std::uint32_t> each() const { return each_; }
     /// The boxes of the sampled sources, in the order of sampled().
     [[nodiscard]] const SourceBoxes& boxes() const { return boxes_; }
+    /// Whether there are so many sources that some are chosen for the samples of a pixel. Not
+    /// before what each may bring is known.
+    [[nodiscard]] bool many_for_samples() const { return many_for_samples_; }
 
     /// Add a virtual source; sampled() does not hold it before finalize(). While the tracer is set
     /// up only.
@@ -91,6 +98,7 @@ class LightSources {
     std::vector<std::uint32_t> each_;
     SourceBoxes boxes_;
     std::size_t virtual_count_ = 0;
+    bool many_for_samples_ = false;
     std::vector<std::int32_t> distant_;                        ///< real sources at infinity
     std::unordered_map<std::int32_t, ScatterList> scattered_;  ///< by the mist's modifier
 };

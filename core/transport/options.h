@@ -46,6 +46,7 @@ struct RenderOptions {
     int ambient_divisions = 512;        ///< -ad
     int ambient_super_samples = 128;    ///< -as
     int ambient_lights = 2;             ///< --ambient-lights; 0: all
+    int sample_lights = 0;              ///< of rays that are samples of a pixel; 0: all
     AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
     // irradiance
     bool irradiance = false;  ///< -i
