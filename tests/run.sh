@@ -25,8 +25,10 @@ fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 status=0
-# One more than there are cores, since some tests wait for most of their time.
-ctest --preset "$preset" -j $(($(nproc) + 1)) -O "build/$preset/ctest.log" "$@" || status=$?
+# More than there are cores, since some tests wait for most of their time; without a browser, which needs the cores, two more.
+jobs=$(($(nproc) + 2))
+[ "$preset" != release ] || jobs=$(($(nproc) + 1))
+ctest --preset "$preset" -j "$jobs" -O "build/$preset/ctest.log" "$@" || status=$?
 if [ "$status" -ne 0 ]; then
     # What failed once more, where those who see only the end of a long log find it; then ctest's summary again.
     awk '/^[0-9]+\/[0-9]+ Testing: / { block = "" } { block = block $0 "\n" } /^Test Failed/ { print block }' \
