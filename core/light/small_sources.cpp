@@ -133,7 +133,6 @@ void SmallSources::draw_pixel(const Outline& outline, int x, int y, TraceContext
     if (!(coverage > 0)) return;
     const ImagePoint center = inside.center();
     const ShownSource shown = this->shown(outline.source, x, y, context);
-    ++context.counters.rays.shadow;
     const Ray ray = trace_to(outline.source, x, y, center.x / width_, center.y / height_, context);
     if (reaches(ray))
         pixel({x, y, static_cast<float>(coverage), ray.value, ray.unreflected_path_length, shown});
@@ -156,6 +155,7 @@ Ray SmallSources::trace_to(std::int32_t source, int x, int y, double h, double v
     ray.kind = kShadow;
     ray.history = kShadow;
     ray.target = source;
+    ++context.counters.rays.shadow;
     if (context.groups) context.groups->clear();
     tracer_.trace(ray, context);
     return ray;

@@ -97,28 +97,6 @@ TEST_CASE("render: --samples traces every pixel, and says so when -ps asked for 
     CHECK(pixel_bytes(samples.out) != pixel_bytes(single));
 }
 
-TEST_CASE("render: of many lights the samples of a pixel choose a few, alike whoever traces them") {
-    const TemporaryFolder folder;
-    std::string text = kRoom;
-    for (int i = 0; i < 24; ++i)
-        text += "lamp sphere l" + std::to_string(i) + " 0 0 4 " + std::to_string(i % 6 - 2.5) +
-                ' ' + std::to_string(i / 6 - 2) + " 4 .1\n";
-    const std::string scene = folder.write("room.rad", text);
-    const auto pixels = [&](std::vector<std::string> words) {
-        words.push_back(scene);
-        const ProgramResult made = run_program(line(words));
-        CHECK(made.status == 0);
-        return pixel_bytes(made.out);
-    };
-    const std::string few = pixels({"--samples", "4", "-n", "1"});
-    CHECK(pixels({"--samples", "4", "-n", "3", "--block", "16"}) == few);
-    CHECK(pixels({"--samples", "4", "--sample-lights", "8"}) == few);
-    CHECK(pixels({"--samples", "4", "--sample-lights", "0"}) != few);
-    CHECK(pixels({"--samples", "4", "--sample-lights", "13"}) ==  // 25 are no more than twice 13
-          pixels({"--samples", "4", "--sample-lights", "0"}));
-    CHECK(pixels({"-ps", "1", "--sample-lights", "2"}) == pixels({"-ps", "1"}));
-}
-
 TEST_CASE("render: --tone changes .png alone") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);

@@ -2,10 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "core/light/light_sources.h"
+#include "tests/core/light/lamps_over_floor.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
 
@@ -13,37 +13,6 @@ using namespace lightwalk;
 using namespace lightwalk::test;
 
 namespace {
-
-const std::string kFloor =
-    "void plastic shiny 0 0 5 .5 .4 .3 .03 .1\n"
-    "shiny polygon floor 0 0 12 -5 -5 0  5 -5 0  5 5 0  -5 5 0\n"
-    "shiny polygon wall 0 0 12 .2 -1 .1  .2 -1 1.5  .2 1 1.5  .2 1 .1\n";
-
-/// Twelve lamps of all kinds, of which a wall hides some.
-std::string many_lights() {
-    std::ostringstream text;
-    text << kFloor
-         << "void light lamp 0 0 3 100 80 60\n"
-            "void brightfunc stripes 2 stripe stripes.cal 0 0\nstripes light striped 0 0 3 30 30 "
-            "30\n"
-            "void spotlight beam 0 0 7 900 900 900 60 0 0 -1\n"
-            "void glow near 0 0 4 50 50 50 2.5\n";
-    for (int i = 0; i < 7; ++i)
-        text << "lamp sphere s" << i << " 0 0 4 " << (i * 7 % 11) * .3 - 1.5 << ' '
-             << (i * 5 % 9) * .3 - 1.2 << " 3 .1\n";
-    text << "striped polygon panel 0 0 12 -2 -2 2  -2 -1 2  -1 -1 2  -1 -2 2\n"
-            "lamp polygon window 0 0 12 -3 -1 1  -3 1 1  -3 1 2  -3 -1 2\n"
-            "beam ring spot 0 0 8 1 1 3  0 0 -1  0 .1\n"
-            "near sphere ball 0 0 4 -1 2 2 .2\n"
-            "lamp source sun 0 0 4 .5 .2 1 1\n";
-    return text.str();
-}
-
-MemoryResources stripes() {
-    MemoryResources files;
-    files.functions["stripes.cal"] = "stripe = 1 + .9*sin(20*Px)*sin(9*Dy);";
-    return files;
-}
 
 RenderOptions options(int lights) {
     RenderOptions o = TestScene::exact();
@@ -84,9 +53,9 @@ Mean mean_arriving(TestScene& scene, double x, double y, int samples) {
 }  // namespace
 
 TEST_CASE("where ambient rays arrive a few lights bring in the mean what all bring") {
-    TestScene all(many_lights(), options(0), stripes());
+    TestScene all(lamps_over_floor(), options(0), striped_files());
     for (const int lights : {2, 5}) {
-        TestScene few(many_lights(), options(lights), stripes());
+        TestScene few(lamps_over_floor(), options(lights), striped_files());
         for (const auto& [x, y] : {std::pair{-1.5, -1.5}, {0.7, 0.3}, {2.5, 2.0}, {-2.9, 0.1}}) {
             CAPTURE(lights);
             CAPTURE(x);
@@ -102,16 +71,16 @@ TEST_CASE("where ambient rays arrive a few lights bring in the mean what all bri
 }
 
 TEST_CASE("where ambient rays arrive mirrored lights count as well") {
-    const std::string scene_text = many_lights() +
+    const std::string scene_text = lamps_over_floor() +
                                    "void mirror silver 0 0 3 .9 .9 .9\nsilver polygon glass 0 0 12 "
                                    "4 -4 0  4 -4 3  4 4 3  4 4 0\n";
     RenderOptions mirrored = options(0);
     mirrored.redirections = 1;
-    TestScene all(scene_text, mirrored, stripes());
+    TestScene all(scene_text, mirrored, striped_files());
     REQUIRE(all.tracer.lights().virtual_count() > 5);
-    TestScene without(many_lights(), options(0), stripes());
+    TestScene without(lamps_over_floor(), options(0), striped_files());
     mirrored.ambient_lights = 2;
-    TestScene few(scene_text, mirrored, stripes());
+    TestScene few(scene_text, mirrored, striped_files());
     const auto expected = static_cast<double>(brightness(arriving(all, 2.5, 2, 0)));
     CHECK(expected > 1.02 * static_cast<double>(brightness(arriving(without, 2.5, 2, 0))));
     const Mean found = mean_arriving(few, 2.5, 2, 4000);
@@ -120,7 +89,8 @@ TEST_CASE("where ambient rays arrive mirrored lights count as well") {
 }
 
 TEST_CASE("a few lights cost a few shadow rays, and few sources or eye rays nothing else") {
-    TestScene all(many_lights(), options(0), stripes()), few(many_lights(), options(2), stripes());
+    TestScene all(lamps_over_floor(), options(0), striped_files()),
+        few(lamps_over_floor(), options(2), striped_files());
     const auto shadow_rays = [](TestScene& scene) {
         const std::uint64_t before = scene.context.counters.rays.shadow;
         for (std::uint32_t i = 0; i < 100; ++i) (void)arriving(scene, -1.5, 0.02 * i, i);
@@ -133,7 +103,7 @@ TEST_CASE("a few lights cost a few shadow rays, and few sources or eye rays noth
         const Vec3 eye{-1.5, 0.1 * i, 0.9}, down{0.1, 0.2, -1};
         CHECK(few.trace(eye, down).value == all.trace(eye, down).value);
     }
-    const std::string two = kFloor +
+    const std::string two = kShinyFloor +
                             "void light lamp 0 0 3 100 80 60\nlamp sphere a 0 0 4 1 1 3 .1\nlamp "
                             "sphere b 0 0 4 -1 1 3 .1\n";
     TestScene two_of_two(two, options(2)), all_of_two(two, options(0));

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "core/light/light_sources.h"
+#include "tests/core/light/lamps_over_floor.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
 
@@ -15,34 +15,7 @@ using namespace lightwalk::test;
 
 namespace {
 
-/// Lamps of all kinds over a floor, some hidden by a wall, some so near that they are divided.
-std::string lamps_over_floor() {
-    std::ostringstream text;
-    text << "void plastic shiny 0 0 5 .5 .4 .3 .03 .1\n"
-            "shiny polygon floor 0 0 12 -5 -5 0  5 -5 0  5 5 0  -5 5 0\n"
-            "shiny polygon wall 0 0 12 .2 -1 .1  .2 -1 1.5  .2 1 1.5  .2 1 .1\n"
-            "void light lamp 0 0 3 100 80 60\n"
-            "void brightfunc stripes 2 stripe stripes.cal 0 0\n"
-            "stripes light striped 0 0 3 30 30 30\n"
-            "void spotlight beam 0 0 7 900 900 900 60 0 0 -1\n"
-            "void glow near 0 0 4 50 50 50 2.5\n";
-    for (int i = 0; i < 7; ++i)
-        text << "lamp sphere s" << i << " 0 0 4 " << (i * 7 % 11) * .3 - 1.5 << ' '
-             << (i * 5 % 9) * .3 - 1.2 << " 3 .1\n";
-    text << "striped polygon panel 0 0 12 -2 -2 2  -2 -1 2  -1 -1 2  -1 -2 2\n"
-            "lamp polygon window 0 0 12 -3 -1 1  -3 1 1  -3 1 2  -3 -1 2\n"
-            "lamp cylinder tube 0 0 7 2 -1 1.2  2 1 1.2  .02\n"
-            "beam ring spot 0 0 8 1 1 3  0 0 -1  0 .1\n"
-            "near sphere ball 0 0 4 -1 2 2 .2\n"
-            "lamp source sun 0 0 4 .5 .2 1 1\n";
-    return text.str();
-}
-
-MemoryResources striped_files() {
-    MemoryResources files;
-    files.functions["stripes.cal"] = "stripe = 1 + .9*sin(20*Px)*sin(9*Dy);";
-    return files;
-}
+const std::string kLamps = lamps_over_floor() + "lamp cylinder tube 0 0 7 2 -1 1.2  2 1 1.2  .02\n";
 
 RenderOptions with_lights(int lights, double jitter = 0) {
     RenderOptions o = TestScene::exact();
@@ -81,9 +54,9 @@ constexpr std::array<std::pair<double, double>, 4> kFloorPlaces{
 }  // namespace
 
 TEST_CASE("a few lights bring to the samples of a pixel in the mean what all bring") {
-    TestScene all(lamps_over_floor(), with_lights(0), striped_files());
+    TestScene all(kLamps, with_lights(0), striped_files());
     for (const int lights : {1, 2, 4}) {
-        TestScene few(lamps_over_floor(), with_lights(lights), striped_files());
+        TestScene few(kLamps, with_lights(lights), striped_files());
         Average together;
         for (const auto& [x, y] : kFloorPlaces) {
             CAPTURE(lights);
@@ -106,8 +79,8 @@ TEST_CASE("a few lights bring to the samples of a pixel in the mean what all bri
 }
 
 TEST_CASE("a few lights bring the same mean where places on lights are random, too") {
-    TestScene all(lamps_over_floor(), with_lights(0, 0.7), striped_files()),
-        few(lamps_over_floor(), with_lights(3, 0.7), striped_files());
+    TestScene all(kLamps, with_lights(0, 0.7), striped_files()),
+        few(kLamps, with_lights(3, 0.7), striped_files());
     const auto mean = [](TestScene& scene, double x, double y, std::uint32_t seed) {
         return average_of(20000, [&](std::uint32_t i) {
             return seen_on_floor(scene, x, y, RandomStream::of_pixel(seed, i, 0, 0));
@@ -122,7 +95,7 @@ TEST_CASE("a few lights bring the same mean where places on lights are random, t
 }
 
 TEST_CASE("samples of a picture share the choice of lights among themselves") {
-    TestScene few(lamps_over_floor(), with_lights(2), striped_files());
+    TestScene few(kLamps, with_lights(2), striped_files());
     const auto mean = [&](auto stream) {
         return average_of(200, [&](std::uint32_t picture) {
             double sum = 0;
@@ -144,8 +117,8 @@ TEST_CASE("samples of a picture share the choice of lights among themselves") {
 
 TEST_CASE(
     "a few lights cost samples a few shadow rays, and where these are all they change nothing") {
-    TestScene all(lamps_over_floor(), with_lights(0), striped_files()),
-        few(lamps_over_floor(), with_lights(2), striped_files());
+    TestScene all(kLamps, with_lights(0), striped_files()),
+        few(kLamps, with_lights(2), striped_files());
     const auto shadow_rays = [](TestScene& scene) {
         const std::uint64_t before = scene.context.counters.rays.shadow;
         for (std::uint32_t i = 0; i < 100; ++i)
