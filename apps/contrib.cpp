@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "apps/command_run.h"
 #include "apps/contrib_command.h"
@@ -16,6 +17,7 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  ///< of answers that wait to be written
+constexpr std::size_t kPart = std::size_t{1} << 18;        ///< of them, written at once [bytes]
 constexpr std::size_t kMostLongRays = 1024;                ///< with indirect light, at once
 constexpr double kCacheAccuracy = 0.2;                     ///< -aa, with --cache and -aa 0
 
@@ -148,10 +150,14 @@ class ContribRun final : CommandRun {
             y * std::max<std::uint64_t>(x, 1) * static_cast<std::uint64_t>(command_.rays);
         limits.row = command_.x;
         limits.waits = keeps_coefficients();
-        const std::size_t bytes = 3 * sizeof(double) * column_count(tracked_);
-        limits.most = std::clamp<std::size_t>(kMostBytes / bytes, 1, limits.most);
+        limits.most = std::clamp<std::size_t>(kMostBytes / answer_bytes(), 1, limits.most);
         if (indirect()) limits.most = std::min(limits.most, kMostLongRays);
         return limits;
+    }
+
+    /// Of the answer to a ray.
+    [[nodiscard]] std::size_t answer_bytes() const {
+        return 3 * sizeof(double) * column_count(tracked_);
     }
 
     void answer_all(Renderer& renderer, ContributionFiles& files) {
@@ -163,9 +169,15 @@ class ContribRun final : CommandRun {
         stream_.answer_all(
             renderer,
             [&](const std::string& answers) {
-                files.add(answers);
+                // Records go out while they are in the processor's caches.
+                const std::size_t part =
+                    answer_bytes() * std::max<std::size_t>(1, kPart / answer_bytes());
+                for (std::string_view rest = answers; !rest.empty();
+                     rest.remove_prefix(std::min(part, rest.size()))) {
+                    files.add(rest.substr(0, part));
+                    put();
+                }
                 files.flush();
-                put();
             },
             put);
         if (!stream_.is_complete() || !stream_.reader().problem().empty() || stream_.ended_early())

@@ -3,10 +3,26 @@
 #include <utility>
 #include <vector>
 
+#include "io/files/large_pages.h"
 #include "parallel/ray_list.h"
 #include "parallel/time_estimate.h"
 
 namespace lightwalk {
+namespace {
+
+/// Texts one after the other; each goes as soon as it is copied.
+std::string joined(std::vector<std::string> texts) {
+    if (texts.size() == 1) return std::move(texts.front());
+    std::size_t size = 0;
+    for (const std::string& text : texts) size += text.size();
+    std::string all;
+    all.reserve(size);
+    prefer_large_pages(all.data());
+    for (std::string& text : texts) all += std::exchange(text, {});
+    return all;
+}
+
+}  // namespace
 
 LocalBackend::LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), true) {
@@ -96,9 +112,7 @@ std::optional<std::string> LocalBackend::finish(const RayTask& list) {
                    });
     statistics_.rays += contexts_.rays();
     statistics_.ambient += contexts_.ambient();
-    std::string all;
-    for (const std::string& record : records) all += record;
-    return all;
+    return joined(std::move(records));
 }
 
 RayDemand LocalBackend::ray_demand(bool /*wait*/, bool begun) {

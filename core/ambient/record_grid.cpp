@@ -46,7 +46,7 @@ std::size_t RecordGrid::slot_of(std::uint64_t key) const {
     return at;
 }
 
-void RecordGrid::add(std::uint64_t key, Entry entry) {
+void RecordGrid::add(std::uint64_t key, std::uint32_t record) {
     if (2 * used_ >= slots_.size()) {
         std::vector<Slot> old(2 * slots_.size());
         old.swap(slots_);
@@ -56,9 +56,9 @@ void RecordGrid::add(std::uint64_t key, Entry entry) {
     }
     Slot& slot = slots_[slot_of(key)];
     if (slot.first == kNone) ++used_;
-    entry.next = std::exchange(slot.first, static_cast<std::uint32_t>(entries_.size()));
     slot.key = key;
-    entries_.push_back(entry);
+    const auto entry = static_cast<std::uint32_t>(entries_.size());
+    entries_.push_back({record, std::exchange(slot.first, entry)});
 }
 
 void RecordGrid::insert(const CoefficientRecord& record) {
@@ -77,24 +77,25 @@ void RecordGrid::insert(const CoefficientRecord& record) {
         low[k] = static_cast<std::int64_t>(std::floor((at[k] - wide) * grid.inverse_edge));
         high[k] = static_cast<std::int64_t>(std::floor((at[k] + wide) * grid.inverse_edge));
     }
-    const Entry entry{single(at), single(record.normal), static_cast<float>(1 / record.reach),
-                      static_cast<std::uint32_t>(size_++), kNone};
+    const auto number_of_record = static_cast<std::uint32_t>(disks_.size());
+    disks_.push_back({single(at), single(record.normal), static_cast<float>(1 / record.reach)});
     for (std::int64_t x = low[0]; x <= high[0]; ++x) {
         for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-            for (std::int64_t z = low[2]; z <= high[2]; ++z) add(key(grid, {x, y, z}), entry);
+            for (std::int64_t z = low[2]; z <= high[2]; ++z)
+                add(key(grid, {x, y, z}), number_of_record);
         }
     }
 }
 
-double RecordGrid::weight_of(const Entry& entry, const std::array<float, 3>& p,
+double RecordGrid::weight_of(const Disk& disk, const std::array<float, 3>& p,
                              const std::array<float, 3>& n) const {
-    const std::array<float, 3> offset{p[0] - entry.position[0], p[1] - entry.position[1],
-                                      p[2] - entry.position[2]};
-    const float apart = std::sqrt(single_dot(offset, offset)) * entry.inverse_reach;
+    const std::array<float, 3> offset{p[0] - disk.position[0], p[1] - disk.position[1],
+                                      p[2] - disk.position[2]};
+    const float apart = std::sqrt(single_dot(offset, offset)) * disk.inverse_reach;
     if (apart >= 1) return 0;
-    const float cosine = single_dot(n, entry.normal);
+    const float cosine = single_dot(n, disk.normal);
     if (static_cast<double>(cosine) <= least_cosine_) return 0;
-    if (std::abs(single_dot(offset, entry.normal)) * entry.inverse_reach > kThickness) return 0;
+    if (std::abs(single_dot(offset, disk.normal)) * disk.inverse_reach > kThickness) return 0;
     if (cosine > kOneNormal) return 1 - static_cast<double>(apart);
     const double angle = std::sqrt(std::max(0.0, 2 - 2 * static_cast<double>(cosine)));
     return std::max(0.0, 1 - angle / largest_angle_) * (1 - static_cast<double>(apart));
@@ -111,10 +112,11 @@ double RecordGrid::find(const Vec3& position, const Vec3& normal,
             cell[k] = static_cast<std::int64_t>(std::floor(at[k] * grid.inverse_edge));
         std::uint32_t i = slots_[slot_of(key(grid, cell))].first;
         for (; i != kNone; i = entries_[i].next) {
-            const double part = weight_of(entries_[i], p, n);
+            const std::uint32_t record = entries_[i].record;
+            const double part = weight_of(disks_[record], p, n);
             if (part <= 0) continue;
             weight += part;
-            shares.push_back({entries_[i].record, part});
+            shares.push_back({record, part});
         }
         if (weight >= kEnoughOfSmall) break;
     }

@@ -33,7 +33,7 @@ class RecordGrid {
     /// @param least          smallest reach [m]
     /// @param largest_angle  between the normals of a record and of a point that it serves [rad]
     RecordGrid(const Vec3& origin, double least, double largest_angle);
-    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::size_t size() const { return disks_.size(); }
     void insert(const CoefficientRecord& record);
     /// Appends the records that serve a point; those of small disks keep larger ones out.
     /// @param normal  unit
@@ -49,10 +49,14 @@ class RecordGrid {
         double inverse_edge = 0;  ///< [1/m]
     };
     using Cell = std::array<std::int64_t, 3>;
-    /// A record in a cell, with all that decides whether it serves.
-    struct Entry {
+    /// All of a record that decides whether it serves. A record lies in dozens of cells; these hold
+    /// its number, so that what a processor's nearest cache has of it serves for all of them.
+    struct Disk {
         std::array<float, 3> position{}, normal{};
         float inverse_reach = 0;
+    };
+    /// A record in a cell.
+    struct Entry {
         std::uint32_t record = 0;
         std::uint32_t next = kNone;  ///< of the same cell
     };
@@ -62,15 +66,16 @@ class RecordGrid {
     };
     [[nodiscard]] static std::uint64_t key(const Grid& grid, const Cell& cell);
     [[nodiscard]] std::size_t slot_of(std::uint64_t key) const;
-    void add(std::uint64_t key, Entry entry);
-    [[nodiscard]] double weight_of(const Entry& entry, const std::array<float, 3>& p,
+    void add(std::uint64_t key, std::uint32_t record);
+    [[nodiscard]] double weight_of(const Disk& disk, const std::array<float, 3>& p,
                                    const std::array<float, 3>& n) const;
 
     Vec3 origin_;
     double least_, largest_angle_, least_cosine_;
-    std::size_t size_ = 0, used_ = 0;  ///< records; slots
-    std::vector<Grid> grids_;          ///< that have records, from the smallest disks on
-    std::vector<Slot> slots_;          ///< a power of two
+    std::size_t used_ = 0;     ///< slots
+    std::vector<Grid> grids_;  ///< that have records, from the smallest disks on
+    std::vector<Slot> slots_;  ///< a power of two
+    std::vector<Disk> disks_;  ///< by record
     std::vector<Entry> entries_;
 };
 

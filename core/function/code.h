@@ -42,7 +42,8 @@ struct FunctionCode {
     std::uint32_t cells = 0;
     std::uint32_t cached = 0;
     std::uint32_t parameters = 0;
-    std::uint32_t cost = 0;  ///< instructions
+    std::uint32_t cost = 0;                    ///< instructions
+    std::uint32_t first_known = 0, known = 0;  ///< values of 0, 1, ..., see remember_values()
 };
 
 /// An argument of a call: a cell of the caller, or the code block of the caller that computes it.
@@ -50,6 +51,10 @@ struct Argument {
     bool is_value = false;
     std::uint32_t at = 0;
 };
+
+/// What the calls of one epoch may use: recursion of a function file that does not end is an error
+/// long before a user gives up.
+inline constexpr std::uint64_t kMostOperations = 100000000;
 
 struct OutputCode {
     std::uint32_t entry = 0;
@@ -72,6 +77,7 @@ struct Program::Code {
     std::vector<std::uint32_t> targets;
     std::vector<std::string> messages;
     std::vector<double> constants;
+    std::vector<double> known;                ///< values of functions, see FunctionCode
     std::vector<std::uint8_t> used_channels;  ///< channels that instructions read from cells
     ChannelMask channels = 0;
     std::uint32_t inputs_at = 0;

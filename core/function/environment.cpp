@@ -8,6 +8,7 @@
 
 #include "core/function/code_generator.h"
 #include "core/function/graph.h"
+#include "core/function/known_values.h"
 #include "core/function/listing.h"
 #include "core/function/parser.h"
 #include "core/function/symbols.h"
@@ -172,6 +173,7 @@ Program FunctionEnvironment::compile(std::string_view file,
     Program::Code code = function::CodeGenerator(graph).generate();
     code.reals.assign(reals.begin(), reals.end());
     code.where = where;
+    function::remember_values(code);
     return Program(std::make_shared<const Program::Code>(std::move(code)));
 }
 

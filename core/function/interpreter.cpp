@@ -13,9 +13,7 @@ namespace lightwalk {
 namespace function {
 namespace {
 
-/// Bounds on what the calls of one epoch may use: recursion of a function file that does not end is
-/// an error long before memory is full or a user gives up.
-constexpr std::uint64_t kMostOperations = 100000000;
+/// Recursion of a function file that does not end is an error long before memory is full.
 constexpr std::size_t kMostReturns = 200000;
 constexpr std::size_t kMostCells = std::size_t{1} << 21;
 
@@ -81,6 +79,18 @@ Position enter_call(const Program::Code& code, EvalState& state, const Instructi
         state.valid[base + i] = argument.is_value;
     }
     return {code.instructions.data() + function.entry, base};
+}
+
+/// The value of a call whose argument is one of those that are known; else null.
+const double* known_value(const Program::Code& code, const Instruction& call, const double* cells) {
+    const FunctionCode& function = code.functions[call.a];
+    if (function.known == 0) return nullptr;
+    const Argument& argument = code.arguments[call.b];
+    if (!argument.is_value) return nullptr;
+    const double x = cells[argument.at];
+    if (!(x >= 0 && x < function.known) || std::signbit(x)) return nullptr;
+    const auto i = static_cast<std::uint32_t>(x);
+    return static_cast<double>(i) == x ? &code.known[function.first_known + i] : nullptr;
 }
 
 Position return_to_caller(const Program::Code& code, EvalState& state, double value) {
@@ -162,6 +172,11 @@ class Machine {
         cells_ = state_.values.data() + frame_;
     }
     [[gnu::always_inline]] void call() {
+        const double* const known = error_ == 0 ? known_value(code_, *i_, cells_) : nullptr;
+        if (known) {
+            state_.valid[frame_ + i_->dst] = 1;
+            return plain(*known);
+        }
         const std::uint32_t cells = code_.functions[i_->a].cells;
         go_to(enter_call(code_, state_, i_, frame_, top_));
         top_ = frame_ + cells;

@@ -203,13 +203,17 @@ void ContributionFiles::put_record(double scale) {
     if (pending_bytes_ >= kEnough) flush();
 }
 
-void ContributionFiles::add(const std::string& answers) {
+void ContributionFiles::add(std::string_view answers) {
     const std::size_t size = sums_.size() * sizeof(double);
     for (std::size_t at = 0; at + size <= answers.size(); at += size) {
-        for (std::size_t k = 0; k < sums_.size(); ++k) {
-            double part = 0;
-            std::memcpy(&part, answers.data() + at + k * sizeof part, sizeof part);
-            sums_[k] += part;
+        if (writing_.rays == 1) {
+            std::memcpy(sums_.data(), answers.data() + at, size);
+        } else {
+            for (std::size_t k = 0; k < sums_.size(); ++k) {
+                double part = 0;
+                std::memcpy(&part, answers.data() + at + k * sizeof part, sizeof part);
+                sums_[k] += part;
+            }
         }
         ++in_record_;
         if (in_record_ == writing_.rays) put_record(1.0 / in_record_);
@@ -228,8 +232,13 @@ void ContributionFiles::flush() {
 
 std::string ContributionFiles::take_standard_output() {
     std::string bytes;
-    for (Target& target : targets_)
-        if (target.part.empty()) bytes += std::exchange(target.pending, {});
+    for (Target& target : targets_) {
+        if (!target.part.empty()) continue;
+        if (bytes.empty())
+            bytes = std::exchange(target.pending, {});
+        else
+            bytes += std::exchange(target.pending, {});
+    }
     return bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/contributions/contribution_outputs.h"
@@ -38,7 +39,7 @@ class ContributionFiles {
     [[nodiscard]] std::uint64_t rays_done() const { return rays_done_; }
     /// Answers to rays, one after the other: three numbers of double precision a column of all
     /// outputs. Throws InputError where a file cannot be written.
-    void add(const std::string& answers);
+    void add(std::string_view answers);
     /// Writes what was added to the files. Throws InputError.
     void flush();
     /// Removes and returns the bytes for standard output so far.

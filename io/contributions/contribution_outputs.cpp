@@ -96,18 +96,30 @@ std::size_t size_of(NumberFormat format) {
 }
 
 template <class Number>
-void append_bytes(Number value, std::string& bytes) {
-    const auto raw = std::bit_cast<std::array<char, sizeof value>>(value);
-    bytes.append(raw.data(), raw.size());
-}
-
-template <class Number>
 Number number_at(std::string_view bytes, std::size_t i) {
     Number value{};
     std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
     return value;
 }
 
+/// The numbers of a record's columns, as they lie in memory.
+template <class Number>
+void append_numbers(const std::vector<std::size_t>& columns, const std::vector<double>& sums,
+                    double scale, std::string& bytes) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + columns.size() * 3 * sizeof(Number));
+    char* at = bytes.data() + before;
+    for (const std::size_t column : columns) {
+        const double* const sum = &sums[3 * column];
+        const std::array<Number, 3> color{static_cast<Number>(sum[0] * scale),
+                                          static_cast<Number>(sum[1] * scale),
+                                          static_cast<Number>(sum[2] * scale)};
+        std::memcpy(at, color.data(), sizeof color);
+        at += sizeof color;
+    }
+}
+
+/// As text or RGBE.
 void append_color(NumberFormat format, const std::array<double, 3>& c, std::string& bytes) {
     if (format == NumberFormat::rgbe) {
         const Rgbe pixel = encode_rgbe(
@@ -117,15 +129,9 @@ void append_color(NumberFormat format, const std::array<double, 3>& c, std::stri
         return;
     }
     for (const double value : c) {
-        if (format == NumberFormat::real64) {
-            append_bytes(value, bytes);
-        } else if (format == NumberFormat::real32) {
-            append_bytes(static_cast<float>(value), bytes);
-        } else {
-            std::array<char, 32> text{};
-            const int size = std::snprintf(text.data(), text.size(), "%e\t", value);
-            bytes.append(text.data(), static_cast<std::size_t>(size));
-        }
+        std::array<char, 32> text{};
+        const int size = std::snprintf(text.data(), text.size(), "%e\t", value);
+        bytes.append(text.data(), static_cast<std::size_t>(size));
     }
 }
 
@@ -159,6 +165,10 @@ std::size_t RecordFormat::record_size(std::size_t columns) const {
 
 void RecordFormat::append(const ContributionOutput& output, const std::vector<double>& sums,
                           double scale, std::string& bytes) const {
+    if (numbers == NumberFormat::real32)
+        return append_numbers<float>(output.columns, sums, scale, bytes);
+    if (numbers == NumberFormat::real64)
+        return append_numbers<double>(output.columns, sums, scale, bytes);
     for (const std::size_t column : output.columns) {
         const double* const sum = &sums[3 * column];
         append_color(numbers, {sum[0] * scale, sum[1] * scale, sum[2] * scale}, bytes);

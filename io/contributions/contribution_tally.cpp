@@ -1,6 +1,7 @@
 #include "io/contributions/contribution_tally.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,8 @@
 
 namespace lightwalk {
 namespace {
+
+constexpr std::size_t kBits = 64;  ///< of a word
 
 /// The type of the material at the end of a modifier's chain; nothing where there is none.
 std::optional<PrimitiveType> material_type(const Scene& scene, ModifierId modifier) {
@@ -48,6 +51,7 @@ ContributionTally::ContributionTally(const Tracer& tracer,
     : tracer_(tracer),
       places_(tracer.scene().modifier_count()),
       sums_(3 * column_count(tracked)),
+      counted_(column_count(tracked) / kBits + 1),
       warnings_(warnings),
       values_(values) {
     const Scene& scene = tracer.scene();
@@ -111,7 +115,9 @@ void ContributionTally::count(const Place& place, const Vec3& direction, const V
                            " (-bn) is left out, as to others beyond");
         return;
     }
-    double* const sum = &sums_[3 * (place.first + *bin)];
+    const std::size_t column = place.first + *bin;
+    counted_[column / kBits] |= std::uint64_t{1} << column % kBits;
+    double* const sum = &sums_[3 * column];
     for (std::size_t k = 0; k < 3; ++k) {
         const auto part = static_cast<double>(amount[k]);
         if (std::isfinite(part)) sum[k] += part;
@@ -122,16 +128,23 @@ void ContributionTally::take(std::string& bytes) {
     if (records_) records_->take(sums_);
     bytes.append(reinterpret_cast<const char*>(sums_.data()), sums_.size() * sizeof(double));
     std::fill(sums_.begin(), sums_.end(), 0.0);
+    std::fill(counted_.begin(), counted_.end(), 0);
 }
 
+/// Of a fine sky most columns are empty: only others are looked at.
 std::vector<CoefficientTerm> ContributionTally::take_terms() {
     std::vector<CoefficientTerm> terms;
-    for (std::size_t i = 0; i < sums_.size(); i += 3) {
-        const Rgb sum(static_cast<float>(sums_[i]), static_cast<float>(sums_[i + 1]),
-                      static_cast<float>(sums_[i + 2]));
-        if (sum != Rgb{}) terms.push_back({static_cast<std::uint32_t>(i / 3), sum});
+    for (std::size_t word = 0; word < counted_.size(); ++word) {
+        for (std::uint64_t left = std::exchange(counted_[word], 0); left != 0; left &= left - 1) {
+            const std::size_t column =
+                kBits * word + static_cast<std::size_t>(std::countr_zero(left));
+            double* const own = &sums_[3 * column];
+            const Rgb sum(static_cast<float>(own[0]), static_cast<float>(own[1]),
+                          static_cast<float>(own[2]));
+            if (sum != Rgb{}) terms.push_back({static_cast<std::uint32_t>(column), sum});
+            std::fill_n(own, 3, 0.0);
+        }
     }
-    std::fill(sums_.begin(), sums_.end(), 0.0);
     return terms;
 }
 

@@ -66,6 +66,7 @@ class ContributionTally final : public RayTally, RayObserver {
     const Tracer& tracer_;
     std::vector<Place> places_;  ///< by modifier
     std::vector<double> sums_;
+    std::vector<std::uint64_t> counted_;      ///< a bit a column: whether count() has added to it
     std::optional<CoefficientSums> records_;  ///< nothing: there is no cache
     BinChooser chooser_;
     WarningSink& warnings_;

@@ -469,3 +469,32 @@ TEST_CASE("contrib: ranks keep the coefficients of one process, and answer the s
         CHECK(shared.out == alone);
     }
 }
+
+TEST_CASE("long records come out whole and in order, whatever the format") {
+    const TemporaryFolder folder;
+    constexpr std::size_t kBins = 3000, kRays = 30;  // 2 MB of answers: several parts
+    std::string rays;
+    for (std::size_t i = 0; i < kRays; ++i)
+        rays += "0 0 10 0 " + std::to_string(i * 0.001) + " 1\n";
+    for (const bool wide : {false, true}) {
+        const ProgramResult result =
+            contrib(folder,
+                    {"-h-", wide ? "-fad" : "-faf", "-b", "floor(1000*Dy/Dz+.5)", "-bn",
+                     std::to_string(kBins), "-m", "sky"},
+                    rays, "void glow sky 0 0 4 1 2 3 0\nsky source skyd 0 0 4 0 0 1 180\n");
+        REQUIRE(result.status == 0);
+        const std::size_t size = wide ? sizeof(double) : sizeof(float);
+        REQUIRE(result.out.size() == kRays * kBins * 3 * size);
+        std::size_t counted = 0;
+        for (std::size_t i = 0; i < kRays * kBins * 3; ++i) {
+            const char* const at = result.out.data() + i * size;
+            double value = 0;
+            float narrow = 0;
+            std::memcpy(wide ? static_cast<void*>(&value) : &narrow, at, size);
+            if (!wide) value = static_cast<double>(narrow);
+            const std::size_t ray = i / (3 * kBins), bin = i / 3 % kBins;
+            if (value == (bin == ray ? 1 : 0)) ++counted;
+        }
+        CHECK(counted == kRays * kBins * 3);
+    }
+}
