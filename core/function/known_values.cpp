@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace lightwalk::function {
 namespace {
 
 constexpr std::uint32_t kMostKnown = 256;    ///< values of a function
-constexpr std::uint64_t kMostWork = 200000;  ///< instructions for all values of a function
+constexpr std::uint64_t kMostWork = 200000;  ///< instructions for all values of a program
 
 std::span<const Instruction> body(const Program::Code& code, const FunctionCode& function) {
     return std::span(code.instructions).subspan(function.entry, function.cost);
@@ -60,7 +62,10 @@ std::vector<char> pure_functions(const Program::Code& code) {
 /// Calls functions of a program that is not complete: an output and an input more for its lifetime.
 class Caller {
   public:
-    explicit Caller(Program::Code& code) : code_(code), argument_(code.cells) {
+    explicit Caller(Program::Code& code)
+        : code_(code),
+          program_(std::shared_ptr<const Program::Code>(std::shared_ptr<void>(), &code)),
+          argument_(code.cells) {
         code_.cells += 2;
         code_.arguments.push_back({true, argument_});
         code_.outputs.push_back({static_cast<std::uint32_t>(code_.instructions.size())});
@@ -68,6 +73,8 @@ class Caller {
         call.dst = halt.a = argument_ + 1;
         call.b = static_cast<std::uint32_t>(code_.arguments.size() - 1);
         code_.instructions.insert(code_.instructions.end(), {call, halt});
+        program_.begin(state_, channels_);
+        state_.operations = kMostOperations - kMostWork;
     }
     ~Caller() {
         code_.instructions.resize(code_.instructions.size() - 2);
@@ -78,21 +85,16 @@ class Caller {
     Caller(const Caller&) = delete;
     Caller& operator=(const Caller&) = delete;
 
-    /// The next values of function f, until one meets an error.
+    /// The first values of function f, until one meets an error.
     void remember(std::uint32_t f) {
         code_.instructions[code_.instructions.size() - 2].a = f;
         FunctionCode& function = code_.functions[f];
         function.first_known = static_cast<std::uint32_t>(code_.known.size());
-        const Program program(
-            std::shared_ptr<const Program::Code>(std::shared_ptr<void>(), &code_));
-        const ChannelValues channels{};
-        program.begin(state_, channels);
-        state_.operations = kMostOperations - kMostWork;
         while (function.known < kMostKnown) {
             state_.clear_error();
             state_.warnings = 0;
             state_.values[argument_] = function.known;
-            const double value = program.evaluate(code_.outputs.size() - 1, state_);
+            const double value = program_.evaluate(code_.outputs.size() - 1, state_);
             if (state_.warnings > 0 || state_.error != EvalError::none) return;
             code_.known.push_back(value);
             ++function.known;
@@ -101,7 +103,9 @@ class Caller {
 
   private:
     Program::Code& code_;
+    Program program_;  ///< does not own it
     std::uint32_t argument_;
+    ChannelValues channels_{};
     EvalState state_;
 };
 
@@ -109,16 +113,16 @@ class Caller {
 
 void remember_values(Program::Code& code) {
     const std::vector<char> pure = pure_functions(code);
+    std::optional<Caller> caller;
     for (std::uint32_t f = 0; f < pure.size(); ++f) {
         const FunctionCode& function = code.functions[f];
         if (!pure[f] || function.parameters != 1) continue;
-        if (std::ranges::find(body(code, function), Op::call, &Instruction::op) ==
-            body(code, function).end())
-            continue;
+        if (std::ranges::count(body(code, function), Op::call, &Instruction::op) == 0) continue;
+        if (!caller) caller.emplace(code);
         try {
-            Caller(code).remember(f);
+            caller->remember(f);
         } catch (const InputError&) {
-            // Recursion that does not end: an error where it is needed.
+            // Recursion that does not end, or for long: an error where the value is needed.
         }
     }
 }
