@@ -98,14 +98,18 @@ class Bench:
             converged = coefficients(output, self.sensors)
         print(f"MF:{subdivision}\t-ad\tseconds\terror of coefficients\tof sums\tof the mean")
         table = {name: [] for name in programs}
-        for divisions in self.a.divisions:
-            seconds = {name: [] for name in programs}
-            for _ in range(self.a.runs):
+        # All divisions in turns, too: how fast a machine is changes within a run.
+        seconds = {(name, divisions): [] for name in programs for divisions in self.a.divisions}
+        outputs = {}
+        for _ in range(self.a.runs):
+            for divisions in self.a.divisions:
                 for name, (program, more) in programs.items():
-                    taken, output = self.run(program, subdivision, divisions, more)
-                    seconds[name].append(taken)
-                    if len(seconds[name]) == self.a.runs:
-                        self.tell(name, divisions, statistics.median(seconds[name]), coefficients(output, self.sensors), converged, table)
+                    taken, outputs[name, divisions] = self.run(program, subdivision, divisions, more)
+                    seconds[name, divisions].append(taken)
+        for divisions in self.a.divisions:
+            for name in programs:
+                found = coefficients(outputs[name, divisions], self.sensors)
+                self.tell(name, divisions, statistics.median(seconds[name, divisions]), found, converged, table)
         middle = len(self.a.divisions) // 2
         reference = table["rcontrib"][middle]
         for name in ("lightwalk", "--cache"):
