@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-namespace lightwalk {
+using namespace lightwalk;
+
 namespace {
 
 std::pair<int, int> pair_of(const PixelPlace& place) {
@@ -15,6 +16,8 @@ std::pair<int, int> pair_of(const PixelPlace& place) {
 }
 
 const std::vector<Block> kTwo{{0, 0, 2, 2}, {4, 0, 6, 2}};
+
+}  // namespace
 
 TEST_CASE("one worker gets the pixels of blocks in the order in which packets are traced") {
     const std::vector<Block> blocks{{4, 0, 8, 3}, {0, 0, 2, 1}};
@@ -26,7 +29,7 @@ TEST_CASE("one worker gets the pixels of blocks in the order in which packets ar
     for (const auto& place : expected) CHECK(pair_of(shared.next(0)) == place);
 }
 
-TEST_CASE("each worker has a block of its own; who has none left helps from the end of another's") {
+TEST_CASE("a worker that has no block left helps from the end of another's") {
     SharedBlocks shared(kTwo, 2, 2);
     CHECK(pair_of(shared.next(0)) == std::pair(0, 1));
     CHECK(pair_of(shared.next(1)) == std::pair(4, 1));
@@ -49,6 +52,3 @@ TEST_CASE("more workers than blocks get each pixel once, in any order of their c
         CHECK(seen.size() == 21 * 13);
     }
 }
-
-}  // namespace
-}  // namespace lightwalk
