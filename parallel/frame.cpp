@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/transport/light_groups.h"
+#include "parallel/shared_blocks.h"
 
 namespace lightwalk {
 namespace {
@@ -103,6 +104,22 @@ std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Bloc
     return blocks_left(wanted, known, alignment);
 }
 
+/// Pixels of a coarse picture, each by itself: there are few blocks, of which each takes long where
+/// its pixels fill an ambient cache, so that workers would wait for the last one.
+void render_pixels(const BlockRenderer& renderer, std::span<const Block> blocks, Executor& executor,
+                   const StopFlag& stop, TakeBlock take) {
+    SharedBlocks shared(blocks, renderer.alignment(), executor.concurrency());
+    std::vector<BlockPixels> pixels(static_cast<std::size_t>(executor.concurrency()));
+    executor.for_each(
+        shared.pixels(),
+        [&](std::size_t, int worker) {
+            BlockPixels& own = pixels[static_cast<std::size_t>(worker)];
+            const PixelPlace at = shared.next(worker);
+            if (renderer.render({at.x, at.y, at.x + 1, at.y + 1}, worker, own)) take(own, worker);
+        },
+        stop);
+}
+
 }  // namespace
 
 void render_blocks(const BlockRenderer& renderer, std::span<const Block> blocks, Executor& executor,
@@ -136,11 +153,13 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     std::size_t pixels_wanted = 0;
     for (const Block& block : blocks) pixels_wanted += block.pixels();
     ProgressSum sum(contexts, pixels_wanted, progress);
-    render_blocks(renderer, blocks, executor, stop, [&](const BlockPixels& pixels, int worker) {
+    const auto take = [&](const BlockPixels& pixels, int worker) {
         store(pixels, area, frame);
         if (checkpoint != nullptr) checkpoint->keep(pixels);
         sum.add(pixels.block.pixels(), worker, contexts[worker]);
-    });
+    };
+    const bool coarse = options.step > 1 && executor.concurrency() > 1;
+    (coarse ? render_pixels : render_blocks)(renderer, blocks, executor, stop, take);
     frame.rays = contexts.rays();
     frame.ambient = contexts.ambient();
     frame.complete = !stop.requested();
