@@ -34,6 +34,16 @@ void RankFrames::resized() {
     last_.reset();
 }
 
+void RankFrames::put_aside() {
+    resting_ = lead_->put_aside();
+    rested_ = std::exchange(last_, std::nullopt);
+}
+
+void RankFrames::take_back() {
+    lead_->take_back(*std::exchange(resting_, std::nullopt));
+    last_ = std::exchange(rested_, std::nullopt);
+}
+
 std::string RankFrames::payload(const View& view, bool indirect) const {
     PictureOrder picture;
     picture.view = view;

@@ -34,6 +34,8 @@ class RankFrames final : public LiveFrames {
     double outdate(const ShownMaterials* only) override;
     void start(std::uint64_t first) override;
     void resized() override;
+    void put_aside() override;
+    void take_back() override;
     [[nodiscard]] const ProgressivePicture* mixed() override;
     [[nodiscard]] std::string payload(const View& view, bool indirect) const;
     [[nodiscard]] std::optional<AssembledFrame> drawn(FrameOrder order, const StopFlag& stop);
@@ -45,7 +47,9 @@ class RankFrames final : public LiveFrames {
         View view;
         CloudFrame frame;
     };
-    std::optional<Last> last_;  ///< frame that was drawn
+    std::optional<Last> last_;                   ///< frame that was drawn
+    std::optional<FrameLead::Resting> resting_;  ///< that was put aside
+    std::optional<Last> rested_;                 ///< the same
 };
 
 }  // namespace lightwalk

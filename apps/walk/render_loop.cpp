@@ -123,6 +123,7 @@ bool RenderLoop::is_dimming() const {
 bool RenderLoop::has_work() const {
     if (drawn_ && is_dimming() && !glare_.is_asked()) return dimmed_;
     if (!drawn_ || live_.picture().phase != WalkPhase::done || glare_.is_asked()) return true;
+    if (live_.has_more_around()) return true;
     const Size size = size_now();
     return live_.picture().width != size.width || live_.picture().height != size.height;
 }
@@ -279,7 +280,7 @@ void RenderLoop::take_session(const SceneSession& session) {
     glare_.change(tracer, warnings_, groups_);
     isolux_.change(tracer, warnings_, groups_);
     survey_.emplace(session.scene(), tracer.options().back_faces_visible);
-    live_.look_anew();
+    live_.begin_anew();
     if (groups_) mix_lights();
     drawn_ = shown_ = false;
     small_sketches_ = kSmallSketches;
@@ -329,9 +330,11 @@ void RenderLoop::draw(const StopFlag& stop) {
     const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
     const Size size = size_now();
     if (small_sketches_ > 0 || sketches_ > 0) live_.look_anew();
+    live_.look_around(!wish_.view->moving);
     if (!live_.next(*view_, size.width, size.height, ambient, budget, stop)) return;
     drawn_ = true;
-    shown_ = edited_ = false;
+    edited_ = false;
+    shown_ = shown_ && !live_.picture().is_new;
     note_size(size, budget);
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {

@@ -7,8 +7,9 @@
 namespace lightwalk {
 namespace {
 
-/// With more points a pixel none wakes: what is awake takes time in each frame.
-constexpr std::size_t kMostAwakeAPixel = 2;
+/// In a frame not more points a pixel wake than these: what is awake takes time. Those that are
+/// awake do not count: of a view that rested they are many, and an eye that turns shows others.
+constexpr std::size_t kMostWokenAPixel = 2;
 
 constexpr int kHalo = 1;  ///< pixels around the region whose points may answer its own
 
@@ -53,7 +54,7 @@ void RegionPoints::leave_groups(std::size_t points, std::span<const Rgb> groups,
 void RegionPoints::project(const TaskRunner& task_runner) {
     if (projector_->is_perspective()) {
         const std::size_t awake = points_.size();
-        asleep_.wake(*projector_, kMostAwakeAPixel * area_.pixels(), points_, groups_);
+        asleep_.wake(*projector_, awake + kMostWokenAPixel * area_.pixels(), points_, groups_);
         mix_from(awake, points_.size());
     }
     places_.resize(points_.size());

@@ -43,6 +43,8 @@ class RegionPoints {
         groups_ = std::move(other.groups_);
         mixture_ = std::move(other.mixture_);
     }
+    /// Points of another region that the picture does not show.
+    void take_asleep(const RegionPoints& other) { asleep_.add(other.points_, other.groups_); }
     /// Show another mixture of the light groups from now on, of which points keep the light.
     void mix(const LightMixture& mixture, const TaskRunner& task_runner);
     /// Between two frames, of which the second one is not of a view that rests: forget the points

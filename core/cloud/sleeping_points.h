@@ -25,7 +25,7 @@ class SleepingPoints {
     /// @param awake  they are appended to these
     /// @param groups  the same of what add() had of them. Their radiance may be that of a mixture
     ///                of before
-    /// @param most   once there are so many of these the others sleep on
+    /// @param most   once there are so many of `awake` the others sleep on
     void wake(const PointProjector& projector, std::size_t most, std::vector<CloudPoint>& awake,
               std::vector<Rgb>& groups);
     /// Forget those that may show some materials.

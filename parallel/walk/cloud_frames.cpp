@@ -9,9 +9,9 @@ const CloudFrame& CloudFrames::draw(const Camera& camera, PixelCaster& caster, E
     NoFrameExchange alone;
     if (!loop_.draw(order, camera, caster, alone, executor, stop)) {
         lead_.abandon();
-        return loop_.region()->frame();
+        return loop_.drawn(order).frame();
     }
-    CloudRegion& region = *loop_.region();
+    CloudRegion& region = loop_.drawn(order);
     std::vector<std::optional<PixelValue>> refined;
     std::span<const Rgb> groups;
     if (order.rests) {

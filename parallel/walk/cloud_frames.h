@@ -34,7 +34,9 @@ class CloudFrames {
     [[nodiscard]] bool refines(const View& view) const { return lead_.rests(view); }
     /// Frames of another size from here on, from the same points. Audits and ages go on.
     void resize(int width, int height) { lead_.resize(width, height); }
-    /// Time for each of the next frames; 0: none is too long [s].
+    /// See FrameLead.
+    [[nodiscard]] FrameLead::Resting put_aside() { return lead_.put_aside(); }
+    void take_back(FrameLead::Resting resting) { lead_.take_back(std::move(resting)); }
     void forget_view() { lead_.abandon(); }
     /// Of the light groups in the next frames.
     /// @return  the last frame in this mixture, where it is known of all its pixels and may be
@@ -48,6 +50,7 @@ class CloudFrames {
         lead_.abandon();
         return before > 0 ? static_cast<double>(points().size()) / static_cast<double>(before) : 0;
     }
+    /// Time for each of the next frames; 0: none is too long [s].
     void set_budget(double seconds) { lead_.set_budget(seconds); }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
     void set_refine(double share) { lead_.set_refine(share); }

@@ -65,6 +65,7 @@ class CloudRegion {
     [[nodiscard]] const RegionPoints& points() const { return points_; }
     [[nodiscard]] TraceList& to_trace() { return to_trace_; }
     [[nodiscard]] CloudFrame& frame() { return frame_; }
+    [[nodiscard]] const CloudFrame& frame() const { return frame_; }
 
   private:
     CloudOptions options_;

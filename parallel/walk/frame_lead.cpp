@@ -28,6 +28,24 @@ void FrameLead::resize(int width, int height) {
     begun_ = false;
 }
 
+FrameLead::Resting FrameLead::put_aside() {
+    Resting resting{width_, height_, view_, begun_, std::move(progressive_)};
+    progressive_ = ProgressivePicture(width_, height_, options_.samples);
+    view_.reset();
+    begun_ = false;
+    aside_ = true;
+    return resting;
+}
+
+void FrameLead::take_back(Resting resting) {
+    width_ = resting.width;
+    height_ = resting.height;
+    view_ = resting.view;
+    begun_ = resting.begun;
+    progressive_ = std::move(resting.progressive);
+    aside_ = false;
+}
+
 FrameOrder FrameLead::new_order(std::string payload) const {
     FrameOrder order;
     order.width = width_;
@@ -37,6 +55,7 @@ FrameOrder FrameLead::new_order(std::string payload) const {
     order.budget = options_.budget;
     order.most_points = most_points_;
     order.mixture = mixture_;
+    order.aside = aside_;
     return order;
 }
 

@@ -55,6 +55,18 @@ class FrameLead {
 
     /// Frames of another size follow, from the same points.
     void resize(int width, int height);
+    /// What is known of the last frame, so that it may be refined further after frames of other
+    /// views and sizes.
+    struct Resting {
+        int width = 0, height = 0;
+        std::optional<View> view;
+        bool begun = false;
+        ProgressivePicture progressive;
+    };
+    /// The next frames are of views beside that one (FrameOrder::aside).
+    [[nodiscard]] Resting put_aside();
+    /// The next frames are of the view that eyes look at again, and of its size.
+    void take_back(Resting resting);
     /// Of the frames that follow; see CloudOptions.
     void set_budget(double seconds) { options_.budget = seconds; }
     void set_refine(double share) { options_.refine = share; }
@@ -70,6 +82,7 @@ class FrameLead {
     ReuseErrorController error_controller_;
     std::uint64_t frame_;
     std::size_t most_points_;  ///< of the largest frames so far: what they know outlives small ones
+    bool aside_ = false;       ///< see put_aside
     bool empty_ = true;        ///< no frame has left points yet
     // The frame that was ordered.
     View ordered_;

@@ -20,19 +20,20 @@ constexpr std::size_t kMostAsleep = 4'000'000;  ///< points, some 160 MB
 bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster& caster,
                      FrameExchange& exchange, Executor& executor, const StopFlag& stop) {
     using Clock = UncachedPixelTracer::Clock;
+    Frames& frames = of(order);
     const Clock::time_point deadline =
-        order.budget > 0 ? deadline_of(order.budget - infer_seconds_ - keep_seconds_)
+        order.budget > 0 ? deadline_of(order.budget - frames.infer_seconds - frames.keep_seconds)
                          : Clock::time_point::max();
     begin(order, camera, executor);
-    CloudRegion& region = *region_;
+    CloudRegion& region = *frames.region;
     CloudReport& report = region.frame().report;
     if (order.rests) {
-        refine(order.refined);
+        refine(region, order.refined);
     } else {
         region.project(executor);
         if (!exchange.exchange_points(region, stop)) return false;
-        region.answer(caster, executor, stop, checking_deadline(order.budget, unknown_));
-        unknown_ = region.unknown();
+        region.answer(caster, executor, stop, checking_deadline(order.budget, frames.unknown));
+        frames.unknown = region.unknown();
         if (stop.requested()) return false;
         exchange.send_used(region);
     }
@@ -53,8 +54,8 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     if (!all) return false;
     region.keep(age_limit(*all, order.most_points), executor);
     region.points().limit_asleep(std::min(order.most_points, kMostAsleep) / owners_);
-    keep_seconds_ = report.keep_seconds;
-    infer_seconds_ = report.infer_seconds;
+    frames.keep_seconds = report.keep_seconds;
+    frames.infer_seconds = report.infer_seconds;
     return true;
 }
 
@@ -63,27 +64,37 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera, Executor& e
     if (order.width < 1 || order.width > kMostPixels || order.height < 1 ||
         order.height > kMostPixels)
         throw InputError("a frame of a walk is ordered in a size that cannot be");
-    const bool same = region_ && width_ == order.width && height_ == order.height;
-    width_ = order.width;
-    height_ = order.height;
+    if (!order.aside || aside_.view != camera.view()) put_aside_to_sleep();
+    Frames& frames = of(order);
+    const bool same = frames.region && frames.width == order.width && frames.height == order.height;
+    frames.view = camera.view();
+    frames.width = order.width;
+    frames.height = order.height;
     if (!same || order.rules.empty) {
         // Points are places in the scene: in a picture of another size they answer other pixels.
-        std::optional<CloudRegion> before = std::exchange(region_, std::nullopt);
-        const SubImages parts({0, 0, width_, height_}, owners_);
-        region_.emplace(parts[index_], width_, height_, options_);
-        if (before && !order.rules.empty) region_->points().adopt(std::move(before->points()));
+        std::optional<CloudRegion> before = std::exchange(frames.region, std::nullopt);
+        const SubImages parts({0, 0, order.width, order.height}, owners_);
+        frames.region.emplace(parts[index_], order.width, order.height, options_);
+        if (before && !order.rules.empty)
+            frames.region->points().adopt(std::move(before->points()));
     }
-    region_->points().mix(order.mixture, ExecutorTaskRunner(executor));
-    region_->begin(camera, order.rules);
+    frames.region->points().mix(order.mixture, ExecutorTaskRunner(executor));
+    frames.region->begin(camera, order.rules);
+}
+
+void FrameLoop::put_aside_to_sleep() {
+    if (aside_.region && shown_.region)
+        shown_.region->points().take_asleep(aside_.region->points());
+    aside_.forget();
 }
 
 /// The view stands still: the order says what is to be traced.
-void FrameLoop::refine(std::span<const PixelPlace> places) {
-    const StepTimer timer(region_->frame().report.check_seconds);
+void FrameLoop::refine(CloudRegion& region, std::span<const PixelPlace> places) {
+    const StepTimer timer(region.frame().report.check_seconds);
     std::vector<PixelPlace> own;
     for (const PixelPlace& place : places)
-        if (region_->frame().area.contains(place)) own.push_back(place);
-    region_->refine(own);
+        if (region.frame().area.contains(place)) own.push_back(place);
+    region.refine(own);
 }
 
 bool NoFrameExchange::trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,

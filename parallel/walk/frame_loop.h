@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/cloud/primary_visibility.h"
+#include "core/view/view.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_region.h"
@@ -61,25 +62,43 @@ class FrameLoop {
 
     /// The next frame, which is one of a new view, does without points that may show these.
     void drop(const ShownMaterials& materials) {
-        if (region_) region_->points().drop(materials);
+        if (shown_.region) shown_.region->points().drop(materials);
+        aside_.forget();
     }
 
-    /// The part of the last frame; null before the first one.
-    [[nodiscard]] CloudRegion* region() { return region_ ? &*region_ : nullptr; }
-    [[nodiscard]] const CloudRegion* region() const { return region_ ? &*region_ : nullptr; }
+    /// The part of the last frame that was not drawn aside (FrameOrder::aside); null before the
+    /// first one.
+    [[nodiscard]] const CloudRegion* region() const {
+        return shown_.region ? &*shown_.region : nullptr;
+    }
+    /// The part of a frame that was just drawn.
+    [[nodiscard]] CloudRegion& drawn(const FrameOrder& order) { return *of(order).region; }
     /// How long the last frame's points took to be kept [s].
-    [[nodiscard]] double keep_seconds() const { return keep_seconds_; }
+    [[nodiscard]] double keep_seconds() const { return shown_.keep_seconds; }
 
   private:
+    /// What is known from frame to frame.
+    struct Frames {
+        std::optional<CloudRegion> region;
+        View view;                                   ///< of the last frame
+        int width = 0, height = 0;                   ///< of the picture that the region is part of
+        double infer_seconds = 0, keep_seconds = 0;  ///< of the last frame [s]
+        double unknown = 1;                          ///< share of its pixels that no point answered
+        void forget() {
+            region.reset();
+            infer_seconds = keep_seconds = 0;
+            unknown = 1;
+        }
+    };
+    [[nodiscard]] Frames& of(const FrameOrder& order) { return order.aside ? aside_ : shown_; }
     void begin(const FrameOrder& order, const Camera& camera, Executor& executor);
-    void refine(std::span<const PixelPlace> places);
+    void put_aside_to_sleep();
+    static void refine(CloudRegion& region, std::span<const PixelPlace> places);
 
     CloudOptions options_;
     std::size_t index_, owners_;
-    std::optional<CloudRegion> region_;
-    int width_ = 0, height_ = 0;                   ///< of the picture that the region is a part of
-    double infer_seconds_ = 0, keep_seconds_ = 0;  ///< of the last frame [s]
-    double unknown_ = 1;                           ///< share of its pixels that no point answered
+    Frames shown_;
+    Frames aside_;  ///< of one view; its points sleep among the others' as soon as it is left
 };
 
 }  // namespace lightwalk

@@ -27,6 +27,7 @@ struct FrameOrder {
     bool leaves = false;      ///< whether these pixels leave points
     std::int32_t sample = 0;  ///< see PixelCaster
     std::vector<PixelPlace> refined;
+    bool aside = false;          ///< of what lies beside a view that rests, for its points alone
     bool tells_origins = false;  ///< whether parts say where the last frame's pixels come from
     LightMixture mixture;        ///< of the light groups, where these are kept
     friend bool operator==(const FrameOrder&, const FrameOrder&) = default;

@@ -119,6 +119,32 @@ void LiveFrames::resize(int width, int height) {
     resized();
 }
 
+std::optional<double> LiveFrames::look_aside(const View& view, int width, int height, double budget,
+                                             const StopFlag& stop) {
+    const auto give_size = [&](int own_width, int own_height) {
+        options_.width = own_width;
+        options_.height = own_height;
+    };
+    const int rested_width = options_.width, rested_height = options_.height;
+    const auto back = [&] {
+        give_size(rested_width, rested_height);
+        take_back();
+    };
+    put_aside();
+    give_size(width, height);
+    resized();
+    WalkFrame drawn;
+    try {
+        drawn = draw(view, budget, 1, stop);
+    } catch (...) {
+        back();
+        throw;
+    }
+    back();
+    if (!drawn.frame.complete) return std::nullopt;
+    return static_cast<double>(drawn.report.filled) / static_cast<double>(drawn.report.pixels);
+}
+
 void LiveFrames::add_small_sources(const View& view, Frame& frame, bool indirect) {
     WalkLight& light = indirect ? *indirect_ : *walking_;
     draw_small_sources(light.tracer, Camera(view), options_, executor_, light.contexts, frame,

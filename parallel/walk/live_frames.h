@@ -102,6 +102,12 @@ class LiveFrames {
     /// @param refine  the same
     [[nodiscard]] virtual WalkFrame draw(const View& view, double budget, double refine,
                                          const StopFlag& stop) = 0;
+    /// A frame of another view, for the points that it leaves: an eye that comes to look there
+    /// finds them. The last frame, and its points, are as if there had been none. Only after
+    /// progressive() was called for it.
+    /// @return  share of its pixels that there was no time for; nothing: stopped
+    [[nodiscard]] std::optional<double> look_aside(const View& view, int width, int height,
+                                                   double budget, const StopFlag& stop);
     /// How good the pixels of the last frame are, if the next one has the same view. Null: there is
     /// none, or it was stopped.
     [[nodiscard]] virtual const ProgressivePicture* progressive(const StopFlag& stop) = 0;
@@ -127,6 +133,9 @@ class LiveFrames {
     /// @param only  points that may show these; null: all
     /// @return      share of the points that are kept
     virtual double outdate(const ShownMaterials* /*only*/) { return 0; }
+    /// Put the last frame away (see FrameLead), and take it back.
+    virtual void put_aside() = 0;
+    virtual void take_back() = 0;
     /// The frames that begin() has announced.
     virtual void start(std::uint64_t first) = 0;
     /// The frames that follow are of the size in options_.
@@ -181,10 +190,13 @@ class LocalFrames final : public LiveFrames {
     double outdate(const ShownMaterials* only) override;
     void start(std::uint64_t first) override;
     void resized() override { frames_->resize(options_.width, options_.height); }
+    void put_aside() override { resting_ = frames_->put_aside(); }
+    void take_back() override { frames_->take_back(*std::exchange(resting_, std::nullopt)); }
 
     [[nodiscard]] const ProgressivePicture* mixed() override;
 
     std::unique_ptr<CloudFrames> frames_;
+    std::optional<FrameLead::Resting> resting_;  ///< that was put aside
 };
 
 }  // namespace lightwalk

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace lightwalk {
@@ -47,6 +48,7 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
         begin(width, height, use);
     else if (width_ != width || height_ != height)
         resize(width, height);
+    picture_.is_new = true;
     if (view_ != view) {
         progressive_.reset();
         draft_ = nullptr;
@@ -57,11 +59,17 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
         view_.reset();
         return false;
     }
+    if (picture_.phase == WalkPhase::done && looks_around_)
+        if (const std::optional<ViewAside> aside = around_.next(1, true))
+            return look_aside(*aside, budget, stop);
     if (progressive_) return add_light(budget, stop);
     const ProgressivePicture* picture = frames_.progressive(stop);
     if (stop.requested()) return false;
     const bool adds_light = use_ == WalkAmbient::rest && frames_.has_indirect();
     if (drafting_) return draft_light(budget, stop);
+    if (picture != nullptr && looks_around_)
+        if (const std::optional<ViewAside> aside = next_aside(*picture, adds_light))
+            return look_aside(*aside, budget, stop);
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
         begin_light(*picture);
         return add_light(budget, stop);
@@ -100,6 +108,29 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     const bool light_follows = use_ == WalkAmbient::rest && frames_.has_indirect();
     picture_.phase = open > 0 || light_follows ? WalkPhase::filling : WalkPhase::refining;
     add_draft();
+    return true;
+}
+
+std::optional<ViewAside> LiveWalk::next_aside(const ProgressivePicture& picture, bool adds_light) {
+    if (!around_.hold(*view_)) around_ = ViewsAround(*view_);
+    const auto pixels = static_cast<double>(picture.radiance().size());
+    const std::size_t open = picture.open_pixels();
+    return around_.next(1 - static_cast<double>(open) / pixels, open == 0 && !adds_light);
+}
+
+/// The picture stays as it is.
+bool LiveWalk::look_aside(const ViewAside& aside, double budget, const StopFlag& stop) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto of = [&](int side) {
+        return std::max(static_cast<int>(std::lround(aside.share * side)), 1);
+    };
+    const std::optional<double> unknown =
+        frames_.look_aside(aside.view, of(width_), of(height_), budget, stop);
+    if (!unknown) return false;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    around_.record(*unknown, took.count());
+    picture_.rays = frames_.rays();
+    picture_.is_new = false;
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/view/view_path.h"
 #include "parallel/concurrent_cache.h"
 #include "parallel/frame.h"
 #include "tests/test_scene.h"
@@ -205,6 +206,53 @@ TEST_CASE("a view that moves on leaves what it was doing, and is told from one t
     CHECK(walker.next(view_at(0.05), WalkAmbient::rest).phase != WalkPhase::moving);
     REQUIRE(walker.live.next(view_at(0.05), 20, 15, WalkAmbient::rest, 1, walker.stop));
     CHECK(walker.live.picture().radiance.size() == 300);
+}
+
+TEST_CASE("an eye that has rested finds what lies beside its view when it turns") {
+    const View view = view_at(0);
+    const auto reused = [&](Walker& walker) {
+        CHECK(walker.rest(view, WalkAmbient::off).radiance ==
+              walker.rendered(walker.direct, view).radiance);
+        const LivePicture turned = walker.next(turned_view(view, 75), WalkAmbient::off);
+        CHECK(turned.is_new);
+        return static_cast<double>(turned.report.reused) /
+               static_cast<double>(turned.report.pixels);
+    };
+    Walker stares(0), looks(0);
+    looks.live.look_around(true);
+    CHECK(reused(stares) == 0);
+    CHECK(reused(looks) > 0.7);
+}
+
+TEST_CASE("looking around changes nothing of a picture at rest, nor of its light") {
+    Walker walker(1);
+    walker.live.look_around(true);
+    const View view = view_at(0);
+    std::vector<LivePicture> all;
+    CHECK(walker.rest(view, WalkAmbient::rest, &all).radiance ==
+          walker.rendered(walker.full, view).radiance);
+    std::size_t aside = 0;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        if (all[i].is_new) continue;
+        ++aside;
+        CHECK(all[i].radiance == all[i - 1].radiance);
+        CHECK(all[i].phase == all[i - 1].phase);
+    }
+    CHECK(aside > 2);
+    for (int i = 0; walker.live.has_more_around(); ++i) {
+        REQUIRE(i < 1000);
+        CHECK_FALSE(walker.next(view, WalkAmbient::rest, 1e-3).is_new);
+        CHECK(walker.live.picture().phase == WalkPhase::done);
+    }
+    // There again later nothing is to be looked at any more.
+    (void)walker.next(view_at(0.05), WalkAmbient::rest);
+    all.clear();
+    (void)walker.rest(view, WalkAmbient::rest, &all);
+    CHECK(std::ranges::all_of(all, &LivePicture::is_new));
+    walker.live.begin_anew();
+    all.clear();
+    (void)walker.rest(view, WalkAmbient::rest, &all);
+    CHECK_FALSE(std::ranges::all_of(all, &LivePicture::is_new));
 }
 
 TEST_CASE("where there is time a view comes to rest in few steps, however edges spread") {
