@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kApart = 0.9;  // of the field of view: borders are seen from both sides
 constexpr double kFewUnknown = 0.005;
+constexpr double kMostViews = 12;  // of a narrow view those that it turns to first
 
 /// Of all views around once.
 struct Round {
@@ -34,7 +35,7 @@ ViewsAround::ViewsAround(const View& view) : home_(view) {
     constexpr double kCircle = 360;
     if (view.type != 'v') return;
     const double step = kApart * view.horizontal;
-    const int beside = static_cast<int>(std::ceil(kCircle / step)) - 1;
+    const int beside = static_cast<int>(std::min(std::ceil(kCircle / step) - 1, kMostViews));
     for (int i = 1; 2 * i <= beside + 1; ++i) {
         views_.push_back(turned_view(view, i * step));
         if (2 * i <= beside) views_.push_back(turned_view(view, -i * step));

@@ -100,6 +100,17 @@ TEST_CASE("what was seen around a place is known of all views from there that ar
     CHECK_FALSE(ViewsAround().hold(looking_north()));
 }
 
+TEST_CASE("of a view as narrow as a needle's eye only what lies beside it is looked at") {
+    for (const double horizontal : {5.0, 1e-9, 1e-300}) {
+        View view = looking_north();
+        view.horizontal = horizontal;
+        ViewsAround around(view);
+        const std::vector<ViewAside> views = round_of(around, false);
+        CHECK(views.size() >= 2);
+        CHECK(views.size() < 20);
+    }
+}
+
 TEST_CASE("of views whose points do not outlive a turn none are drawn aside") {
     View view = looking_north();
     view.type = 'h';
