@@ -210,9 +210,14 @@ TEST_CASE("a view that moves on leaves what it was doing, and is told from one t
 
 TEST_CASE("an eye that has rested finds what lies beside its view when it turns") {
     const View view = view_at(0);
+    constexpr double kEnough = 0.5;  // [s] for a step: so that none of the views is left out
     const auto reused = [&](Walker& walker) {
-        CHECK(walker.rest(view, WalkAmbient::off).radiance ==
-              walker.rendered(walker.direct, view).radiance);
+        LivePicture rested = walker.next(view, WalkAmbient::off, kEnough);
+        for (int i = 0; rested.phase != WalkPhase::done; ++i) {
+            REQUIRE(i < 1000);
+            rested = walker.next(view, WalkAmbient::off, kEnough);
+        }
+        CHECK(rested.radiance == walker.rendered(walker.direct, view).radiance);
         const LivePicture turned = walker.next(turned_view(view, 75), WalkAmbient::off);
         CHECK(turned.is_new);
         return static_cast<double>(turned.report.reused) /
@@ -221,7 +226,7 @@ TEST_CASE("an eye that has rested finds what lies beside its view when it turns"
     Walker stares(0), looks(0);
     looks.live.look_around(true);
     CHECK(reused(stares) == 0);
-    CHECK(reused(looks) > 0.7);
+    CHECK(reused(looks) > 0.4);
 }
 
 TEST_CASE("looking around changes nothing of a picture at rest, nor of its light") {
