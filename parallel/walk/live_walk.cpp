@@ -25,6 +25,7 @@ void LiveWalk::begin(int width, int height, WalkAmbient use) {
     width_ = width;
     height_ = height;
     use_ = use;
+    around_ = {};
     frames_.begin(width, height, use == WalkAmbient::always && frames_.has_indirect());
     view_.reset();
 }
@@ -113,6 +114,7 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
 
 std::optional<ViewAside> LiveWalk::next_aside(const ProgressivePicture& picture, bool adds_light) {
     if (!around_.hold(*view_)) around_ = ViewsAround(*view_);
+    if (!around_.next(1, true)) return std::nullopt;  // before pixels are counted
     const auto pixels = static_cast<double>(picture.radiance().size());
     const std::size_t open = picture.open_pixels();
     return around_.next(1 - static_cast<double>(open) / pixels, open == 0 && !adds_light);

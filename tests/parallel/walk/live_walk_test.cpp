@@ -258,6 +258,10 @@ TEST_CASE("looking around changes nothing of a picture at rest, nor of its light
     all.clear();
     (void)walker.rest(view, WalkAmbient::rest, &all);
     CHECK_FALSE(std::ranges::all_of(all, &LivePicture::is_new));
+    // Frames of another light begin without points.
+    all.clear();
+    (void)walker.rest(view, WalkAmbient::off, &all);
+    CHECK_FALSE(std::ranges::all_of(all, &LivePicture::is_new));
 }
 
 TEST_CASE("where there is time a view comes to rest in few steps, however edges spread") {
