@@ -57,7 +57,8 @@ export class MaterialPanel {
 
     /** Take the server's `edited` message: what is changed, and what cannot be. */
     take({ id, materials, refused }) {
-        if (this.sent_ !== null && id !== this.sent_ && this.on_.may_drive()) return;
+        const is_older = this.waiting_ || (this.sent_ !== null && id !== this.sent_);
+        if (is_older && this.on_.may_drive()) return;
         this.edits.take(materials);
         this.refused_ = Array.isArray(refused) ? refused : [];
         this.follow_light(true);
@@ -129,11 +130,11 @@ export class MaterialPanel {
 
     set_() {
         this.problem_ = "";
-        this.show_();
         this.send_();
+        this.show_();
     }
 
-    /** One message a refresh of the screen at most. */
+    /** One message a refresh of the screen at most. What was refused before is over: call it before what is shown. */
     send_() {
         this.touched = true;
         this.refused_ = [];
@@ -166,10 +167,10 @@ export class MaterialPanel {
 
     changed_(layer) {
         this.problem_ = "";
+        this.send_();
         this.show_values_(layer);
         this.show_edits_();
         this.say_();
-        this.send_();
     }
 
     // What is shown

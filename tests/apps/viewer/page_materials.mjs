@@ -21,6 +21,15 @@ async function enter(page, k, text) {
     await page.press(number(k), "Enter");
 }
 
+/** The panel shows what the wall is made of; a step that is run alone, or once more, finds nothing chosen. */
+async function choose_surface(page) {
+    if ((await page.locator(number(0)).count()) > 0) return;
+    await page.focus("#picture");
+    await page.keyboard.press("y");
+    await page.mouse.click(400, 300);
+    await page.waitForSelector("#panel-materials:not([hidden]) .layer");
+}
+
 export const material_steps = (address, npm) => ({
     async "a click tells the materials of a surface, and numbers change them"(page) {
         await page.keyboard.press("1");
@@ -60,6 +69,7 @@ export const material_steps = (address, npm) => ({
     async "numbers that a material cannot have are refused in words, by the page or the server"(
         page,
     ) {
+        await choose_surface(page);
         const before = await told(address);
         for (const [text, words] of [
             ["1.5", "The reflectance, red must be from 0 to 1."],
@@ -82,7 +92,33 @@ export const material_steps = (address, npm) => ({
         assert.ok(await page.isHidden("#material-problem"));
     },
 
+    async "an answer to the change before does not undo one that waits for the next refresh"(page) {
+        await choose_surface(page);
+        await page.evaluate(async (box) => {
+            const enter = (text) => {
+                const input = document.querySelector(box);
+                input.value = text;
+                input.dispatchEvent(new Event("change"));
+            };
+            const refreshes = window.requestAnimationFrame;
+            const refresh = () => new Promise((resolve) => refreshes(resolve));
+            enter("0.45");
+            for (let k = 0; k < 2; ++k) await refresh();
+            const waiting = [];
+            window.requestAnimationFrame = (then) => waiting.push(then);
+            enter("0.4");
+            const is_answered = () => window.lightwalk.last_edited?.materials[0]?.reals[0] === 0.45;
+            for (let k = 0; k < 600 && !is_answered(); ++k) await refresh();
+            window.requestAnimationFrame = refreshes;
+            for (const then of waiting) refreshes(then);
+        }, number(0));
+        await until_told(address, ([one]) => one?.reals[0] === 0.4);
+    },
+
     async "changed materials are undone, forgotten and saved, and stay over a reload"(page) {
+        await choose_surface(page);
+        await enter(page, 0, "0.4");
+        await until_told(address, ([one]) => one?.reals[0] === 0.4);
         await enter(page, 4, "0.2");
         await until_told(address, ([one]) => one?.reals[4] === 0.2);
         await page.click("#material-undo");
