@@ -62,7 +62,10 @@ std::string progress_line(const RenderProgress& progress, int columns) {
     const std::string percent = formatted("%5.1f %%", 100 * std::clamp(progress.done, 0.0, 1.0));
     const std::string left =
         progress.seconds_left ? "  " + time_text(*progress.seconds_left) + " left" : std::string();
-    for (const std::string& words : {percent + rate_text(progress) + left, percent + left}) {
+    const std::string error =
+        progress.error ? formatted("  error %.2g %%", 100 * *progress.error) : std::string();
+    for (const std::string& words :
+         {percent + rate_text(progress) + error + left, percent + error + left, percent + left}) {
         const int bar = std::min(room - static_cast<int>(words.size()) - 3, kLongestBar);
         if (bar >= kShortestBar) return bar_text(progress.done, bar) + words;
     }

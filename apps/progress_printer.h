@@ -8,9 +8,9 @@
 
 namespace lightwalk {
 
-/// A bar, the share done, the speed and the time left, in at most columns - 1 characters, because
-/// terminals wrap what fills their last column. What does not fit is left out: the speed first,
-/// then the bar, then the time.
+/// A bar, the share done, the speed, the error where it is known, and the time left, in at most
+/// columns - 1 characters, because terminals wrap what fills their last column. What does not fit
+/// is left out: the speed first, then the error, the bar, the time.
 [[nodiscard]] std::string progress_line(const RenderProgress& progress, int columns);
 
 /// Hours, minutes and seconds: "0:07", "12:30", "1:00:00".

@@ -51,6 +51,7 @@ class RenderRun final : CommandRun {
             isatty(STDOUT_FILENO) != 0)
             throw UsageError("standard output is a terminal: name the picture's file with -o");
         if (speaks()) check_outputs();
+        if (speaks() && command_.output.denoise) (void)Denoiser();  // before anything is drawn
         keep_ambient_values();
     }
 
@@ -97,7 +98,7 @@ class RenderRun final : CommandRun {
     [[nodiscard]] int sample_lights() const {
         const PixelOptions& pixels = options().pixels;
         constexpr int kAutomatic = 8;
-        if (pixels.samples <= 1) return 0;
+        if (pixels.samples <= 1 && !options().goal.given()) return 0;
         if (command_.sample_lights) return *command_.sample_lights;
         // Layers are made for lights that may be turned up later.
         return reuses() || command_.output.layers ? 0 : kAutomatic;
@@ -168,10 +169,14 @@ class RenderRun final : CommandRun {
                 warnings().warn("-ps ignored: with --light-group every pixel is traced");
             pixels.spacing = 1;
         }
-        if (pixels.spacing == 1 || (!reuses() && pixels.samples <= 1)) return;
+        pixels.share_samples = !command_.output.denoise;  // noise differs from pixel to pixel then
+        const bool sampled =
+            pixels.samples > 1 || options().goal.given() || command_.output.denoise;
+        if (pixels.spacing == 1 || (!reuses() && !sampled)) return;
         if (command_.spacing_given)
             warnings().warn(reuses() ? "-ps ignored: every pixel that is not reused is traced"
-                                     : "-ps ignored: with --samples every pixel is traced");
+                                     : "-ps ignored: every pixel is traced where they have several "
+                                       "rays, or are denoised");
         pixels.spacing = 1;
     }
 
@@ -217,6 +222,13 @@ class RenderRun final : CommandRun {
             };
         observer.enters = [](SeriesStage stage) { set_interrupt_phase(phase_of(stage)); };
         observer.unfinished_file = set_interrupt_litter;
+        if (!command_.common.quiet)
+            observer.denoised = [this](const Denoiser::Errors& errors) {
+                std::fprintf(
+                    stderr,
+                    "%s: noise of %.2g %% of the screen's white, denoised at most %.2g %%\n",
+                    command_.common.program().c_str(), 100 * errors.noisy, 100 * errors.denoised);
+            };
         return observer;
     }
 

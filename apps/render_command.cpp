@@ -92,6 +92,16 @@ std::vector<OptionRow> pixel_rows(RenderCommand& c) {
          "powers of two (-ps is then 1 and -pj does not count; -z tells the distance along the ray "
          "nearest to the pixel's centre)",
          With{.least = 1, .most = 65536}},
+        {"--error E", &c.common.request.options.goal.error,
+         "relative error | rays are added where the picture needs them until 95 % of its pixels "
+         "are within E of their luminance, as estimated from two halves of the rays: .05 is 5 %. "
+         "--samples are those that each pixel begins with (at least 4). An .exr holds the error in "
+         "a channel of that name, --stats what was reached",
+         With{.least = 0, .most = 1, .shown = "", .commands = kRender | kAnimate}},
+        {"--time SECONDS", &c.common.request.options.goal.seconds,
+         "time for a picture [s] | the same until the time is up, but for reading, writing and the "
+         "first rays of each pixel; with --error, until either is reached",
+         With{.least = 0, .shown = "", .commands = kRender | kAnimate}},
         {"--sample-lights auto|N", sample_lights(c.sample_lights),
          "with --samples, N light sources, chosen by what they may bring, stand for all where more "
          "than twice as many may "
@@ -195,6 +205,11 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
          "them"},
         {"--exposure auto|EV", exposure_option(output.tone),
          "for .png and .jpg: average brightness, or a fixed number of stops"},
+        {"--denoise", &output.denoise,
+         "for .png, .jpg and films: remove the noise that is left, by Open Image Denoise where it "
+         "is installed (libOpenImageDenoise of version 1 or 2); with --error or --time, the error "
+         "before and after it is told. Other files hold what was traced, always",
+         With{.commands = kRender | kAnimate}},
         {"--tone CURVE",
          choice(output.tone.curve,
                 {{"curve", ToneCurve::highlights}, {"linear", ToneCurve::linear}}),
@@ -254,8 +269,22 @@ void check_outputs(const RenderCommand& command) {
         frame_name(output.layers ? layer_file_name(output.picture, "layer") : output.picture, 1);
     const bool film = command.walk && is_film(first);
     if (!first.empty() && !film) check_picture_name(first);  // before any work is done
+    if (output.denoise && !film &&
+        (first.empty() || is_radiance_picture(first) || is_exr_picture(first)))
+        throw UsageError(
+            "option --denoise: only pictures for the screen (-o FILE.png, .jpg, a film) are "
+            "denoised: others hold what was traced");
     if (output.xyz && !output.picture.empty() && !is_radiance_picture(first))
         throw UsageError("option -pXYZ: only Radiance pictures (.hdr, .pic) hold CIE XYZ");
+    const SampleGoal& goal = command.common.request.options.goal;
+    if (goal.given() && !command.checkpoint.empty())
+        throw UsageError(
+            "option --checkpoint: a picture that is drawn until it is good (--error, --time) has "
+            "no finished blocks to keep");
+    if (goal.given() && command.walk && command.walk->reuse)
+        throw UsageError(
+            "options --error and --time: frames that reuse each other's points have samples of "
+            "their own: say --reuse off");
     if (command.resume && command.checkpoint.empty())
         throw UsageError("option --resume: name the file with --checkpoint");
     (void)frame_name(output.depth, 0);

@@ -18,7 +18,8 @@ constexpr int kSharingSide = 32;
 /// Neighbours are there where every pixel is traced.
 SampleUse sample_use(const FrameOptions& options) {
     const bool all = options.pixels.spacing == 1 && options.step == 1;
-    return all && options.pixels.samples > 1 ? SampleUse::shared : SampleUse::own;
+    const PixelOptions& pixels = options.pixels;
+    return all && pixels.share_samples && pixels.samples > 1 ? SampleUse::shared : SampleUse::own;
 }
 
 }  // namespace
@@ -72,6 +73,10 @@ void BlockRenderer::trace_all(PixelTracer& trace, BlockPixels& pixels) const {
     const Block& block = pixels.block;
     for (int y0 = block.y0; y0 < block.y1; y0 += kPacketSide) {
         for (int x0 = block.x0; x0 < block.x1; x0 += kPacketSide) {
+            if (options_.tiles != nullptr &&
+                !options_.tiles->meets(
+                    intersection({x0, y0, x0 + kPacketSide, y0 + kPacketSide}, block)))
+                continue;
             std::size_t count = 0;
             for (int y = std::min(y0 + kPacketSide, block.y1); y-- > y0;) {  // from the top
                 for (int x = x0; x < std::min(x0 + kPacketSide, block.x1); ++x)
@@ -93,6 +98,7 @@ void BlockRenderer::trace_all(PixelTracer& trace, BlockPixels& pixels) const {
 /// All samples whose pixels the block's filters reach, sample by sample in packets.
 void BlockRenderer::filter_samples(PixelTracer& trace, BlockPixels& pixels) const {
     const Block& block = pixels.block;
+    if (options_.tiles != nullptr && !options_.tiles->meets(block)) return;
     FilteredBlock filtered(rays_, options_, block, pixels.groups.size() / block.pixels());
     const PixelRectangle& around = filtered.around();
     for (int y0 = around.y0; y0 < around.y1; y0 += kPacketSide) {

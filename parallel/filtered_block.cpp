@@ -1,6 +1,7 @@
 #include "parallel/filtered_block.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/view/pixel_samples.h"
@@ -30,7 +31,15 @@ FilteredBlock::Sample FilteredBlock::sample_at(const PixelPlace& place, int samp
 bool FilteredBlock::counts(const Sample& sample) const {
     const double x = sample.place.x + sample.offset.x, y = sample.place.y + sample.offset.y;
     return x > block_.x0 - kPixelFilterReach && x < block_.x1 - 1 + kPixelFilterReach &&
-           y > block_.y0 - kPixelFilterReach && y < block_.y1 - 1 + kPixelFilterReach;
+           y > block_.y0 - kPixelFilterReach && y < block_.y1 - 1 + kPixelFilterReach &&
+           (options_.tiles == nullptr || reaches(x, y, kPixelFilterReach));
+}
+
+bool FilteredBlock::reaches(double x, double y, double reach) const {
+    const PixelRectangle within{
+        static_cast<int>(std::floor(x - reach)) + 1, static_cast<int>(std::floor(y - reach)) + 1,
+        static_cast<int>(std::ceil(x + reach)), static_cast<int>(std::ceil(y + reach))};
+    return options_.tiles->meets(intersection(within, block_));
 }
 
 void FilteredBlock::trace(PixelTracer& trace, const PixelRectangle& packet, int sample,
@@ -39,6 +48,7 @@ void FilteredBlock::trace(PixelTracer& trace, const PixelRectangle& packet, int 
     samples_.clear();
     for (int y = packet.y1; y-- > packet.y0;) {  // from the top
         for (int x = packet.x0; x < packet.x1; ++x) {
+            if (options_.tiles != nullptr && !reaches(x, y, kPixelFilterReach + 0.5)) continue;
             const Sample at = sample_at({x, y}, sample);
             if (!counts(at)) continue;
             places_.push_back(at.place);
@@ -95,6 +105,9 @@ void FilteredBlock::gather(BlockPixels& pixels) const {
         const auto width = static_cast<std::size_t>(block_.width());
         const PixelPlace place{block_.x0 + static_cast<int>(at % width),
                                block_.y0 + static_cast<int>(at / width)};
+        if (options_.tiles != nullptr &&
+            !options_.tiles->meets({place.x, place.y, place.x + 1, place.y + 1}))
+            continue;
         std::fill(sums.begin(), sums.end(), Rgb{});
         float weight = 0;
         for (int k = 0; k < static_cast<int>(kReached); ++k) {

@@ -47,6 +47,8 @@ class FilteredBlock {
     };
     [[nodiscard]] Sample sample_at(const PixelPlace& place, int sample) const;
     [[nodiscard]] bool counts(const Sample& sample) const;
+    /// Whether a pixel that is wanted lies within `reach` of a place [pixels].
+    [[nodiscard]] bool reaches(double x, double y, double reach) const;
     void keep_nearest(const Sample& sample, const PixelValue& value, const PixelHit* hit,
                       BlockPixels& pixels);
     void add(const Sample& sample);

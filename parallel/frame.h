@@ -26,6 +26,8 @@ struct Frame {
     std::vector<PixelHit> hits;            ///< empty unless asked for
     std::vector<std::vector<Rgb>> groups;  ///< of the radiance, what each light group adds; empty
                                            ///< unless the contexts have them
+    std::vector<Rgb> half;     ///< radiance of half of the samples; empty unless there is `error`
+    std::vector<float> error;  ///< relative, of luminance, as estimated; empty unless asked for
     RayCounters rays;
     AmbientCounters ambient;
     bool complete = false;  ///< false: stopped early; then some blocks are black

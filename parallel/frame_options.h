@@ -6,6 +6,7 @@
 #include "core/view/pixel_rays.h"
 #include "core/view/pixels.h"
 #include "core/view/view.h"
+#include "parallel/tile_mask.h"
 
 namespace lightwalk {
 
@@ -21,6 +22,8 @@ struct FrameOptions {
     /// The window to render, inside the picture; nothing: all of it. In traced pixels: those of the
     /// smaller picture when `step` is not 1.
     std::optional<PixelRectangle> window;
+    /// Where every pixel is traced, the tiles that are: pixels of others are black. Null: all.
+    const TileMask* tiles = nullptr;
     bool hits = false;  ///< whether to return the first hit of each pixel, too
 
     /// The rectangle of all traced pixels, of every step-th pixel of the picture.

@@ -37,6 +37,10 @@ LocalBackend::LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererO
 
 std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
     if (options_.reuse) return draw_frame(request, executor_->concurrency());
+    if (options_.goal.given())
+        return draw_until_good(request, [&](const PictureRequest& pass, TakeProgress progress) {
+            return draw_pass(pass, progress);
+        });
     const std::vector<WorkPhase> phases =
         plan_picture(request.options, prepass(), executor_->concurrency());
     const std::size_t picture = phases.size() - 1;
@@ -52,6 +56,17 @@ std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
     statistics_.rays += frame.rays;
     statistics_.ambient += frame.ambient;
     reporter.finish(frame.complete, statistics_.rays.total() - before);
+    if (!frame.complete) return std::nullopt;
+    return frame;
+}
+
+/// The first pass of a picture fills the cache for all of them.
+std::optional<Frame> LocalBackend::draw_pass(const PictureRequest& pass, TakeProgress progress) {
+    if (pass.first && !fill_cache(pass, progress)) return std::nullopt;
+    Frame frame = render_frame(session_->tracer(), pass.camera, pass.options, *executor_, contexts_,
+                               stop(), progress);
+    statistics_.rays += frame.rays;
+    statistics_.ambient += frame.ambient;
     if (!frame.complete) return std::nullopt;
     return frame;
 }

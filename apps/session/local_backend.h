@@ -22,6 +22,7 @@ class LocalBackend final : public RenderBackend {
     [[nodiscard]] bool prepare(const PictureRequest& request, bool first) override;
     [[nodiscard]] bool fill_cache(const PictureRequest& request, TakeProgress progress);
 
+    [[nodiscard]] std::optional<Frame> draw_pass(const PictureRequest& pass, TakeProgress progress);
     void fill_coefficients(const RayTask& list);
 
     GroupOfOne alone_;

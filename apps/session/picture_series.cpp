@@ -38,7 +38,9 @@ PictureSeries::PictureSeries(SeriesOutput output, SeriesObserver observer, const
     : output_(std::move(output)),
       observer_(std::move(observer)),
       stop_(stop),
-      checkpoint_(checkpoint) {}
+      checkpoint_(checkpoint) {
+    if (output_.denoise) denoiser_.emplace();
+}
 
 bool PictureSeries::make(const std::vector<WantedPicture>& wanted, Renderer& renderer) {
     std::deque<Started> started;
@@ -107,7 +109,13 @@ PictureHeader PictureSeries::header(const WantedPicture& wanted, double pixel_as
 }
 
 void PictureSeries::write(RenderedPicture& rendered, const PictureHeader& header, int number) {
-    const Picture picture{rendered.width, rendered.height, std::move(rendered.radiance)};
+    Picture picture{rendered.width, rendered.height, std::move(rendered.radiance)};
+    if (denoiser_) {
+        if (!rendered.half.empty() && observer_.denoised)
+            observer_.denoised(
+                denoiser_->errors(picture, rendered.half, choose_tone(picture, output_.tone)));
+        (*denoiser_)(picture);
+    }
     ToneMapping& tone = output_.tone;
     if (output_.keep_exposure && tone.automatic) {
         const double ev = std::log2(choose_tone(picture, tone).scale);
@@ -123,6 +131,8 @@ void PictureSeries::write(RenderedPicture& rendered, const PictureHeader& header
         output_.bytes(encode_hdr(picture, header));
     else if (output_.film_rate)
         add_to_film(picture);
+    else if (!rendered.error.empty() && is_exr_picture(output_.picture))
+        write_exr(frame_name(output_.picture, number), picture, rendered.error, header);
     else
         write_picture(frame_name(output_.picture, number), picture, header, tone);
 }

@@ -10,6 +10,7 @@
 #include "apps/session/checkpoint.h"
 #include "apps/session/lightwalk/renderer.h"
 #include "core/view/view.h"
+#include "io/picture/denoiser.h"
 #include "io/picture/film.h"
 #include "io/picture/picture.h"
 #include "io/picture/tone.h"
@@ -34,6 +35,7 @@ struct SeriesOutput {
     bool layers = false;              ///< pictures have them: see io/picture/layers.h for `picture`
     bool xyz = false;                 ///< pictures hold CIE XYZ, not RGB
     ToneMapping tone;                 ///< of pictures for screens
+    bool denoise = false;             ///< of these, before
     bool keep_exposure = false;       ///< all are exposed as the first one is: else a walk flickers
     std::optional<double> film_rate;  ///< `picture` is a film of so many frames a second
 };
@@ -52,6 +54,8 @@ struct SeriesObserver {
     /// A picture is about to be started.
     std::function<void(const WantedPicture& picture)> begins;
     std::function<void(SeriesStage stage)> enters;
+    /// Where a picture's error is known and it is denoised: before and after that.
+    std::function<void(const Denoiser::Errors& errors)> denoised;
     /// The name of a file that has to be removed if the process ends before it tells ""
     std::function<void(const std::string& path)> unfinished_file;
 };
@@ -94,6 +98,7 @@ class PictureSeries {
     SeriesObserver observer_;
     const StopFlag& stop_;
     Checkpoint* checkpoint_;
+    std::optional<Denoiser> denoiser_;  ///< where pictures are denoised
     std::optional<Film> film_;
     SeriesResult result_;
 };

@@ -33,6 +33,7 @@ void ProgressReporter::report(RenderProgress::Stage stage, double done) {
     progress.stage = stage;
     progress.done = done;
     progress.rays = rays_;
+    progress.error = error_;
     progress.seconds = watch_.seconds();
     progress.seconds_left = estimator_.estimate().seconds_left;
     listener_.tell(progress);

@@ -2,6 +2,7 @@
 // Tells who waits for a picture how far it is.
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "apps/session/lightwalk/renderer.h"
@@ -25,6 +26,8 @@ class ProgressReporter {
     ProgressReporter(ProgressListener listener, std::vector<WorkPhase> phases);
     /// Takes what a phase says, and reports when it is time. Phases do not go back.
     void update(std::size_t phase, const FrameProgress& progress);
+    /// Reports tell of it from now on.
+    void set_error(std::optional<double> error) { error_ = error; }
     /// Reports the end.
     /// @param complete  false: cancelled
     /// @param rays      traced by all phases
@@ -37,6 +40,7 @@ class ProgressReporter {
     TimeEstimator estimator_;
     std::size_t phase_ = 0;
     std::uint64_t rays_before_ = 0, rays_ = 0;  ///< before the present phase, and with it
+    std::optional<double> error_;
     Stopwatch watch_;
     double reported_ = 0;  ///< when the last report was made [s]
 };

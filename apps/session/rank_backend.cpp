@@ -68,15 +68,24 @@ void RankBackend::run(FunctionRef<void()> lead) {
 }
 
 void RankBackend::begin(const PictureRequest& request) {
-    if (options_.reuse) return;
+    if (!options_.reuse && !options_.goal.given()) order(request);
+}
+
+void RankBackend::order(const PictureRequest& request) {
     const FrameOptions& options = request.options;
     PictureOrder order;
     order.view = request.camera.view();
     if (request.previous) order.previous = request.previous->view();
     order.width = options.width;
     order.height = options.height;
+    order.first = request.first;
+    if (request.tiles) {
+        order.samples = options.pixels.samples;
+        order.seed = options.seed;
+        order.tiles = request.tiles->bytes();
+    }
     const std::string payload = wire::encode(order);
-    if (prepass() == CachePrepass::quick)
+    if (request.first && prepass() == CachePrepass::quick)
         link_.start({PictureJob{
             link_.new_number(), quick_prepass(options).whole(), 1, false, payload, {}, false}});
     const BlockRenderer renderer(session_->tracer(), request.camera, options, contexts_, stop());
@@ -99,13 +108,24 @@ void RankBackend::begin(const PictureRequest& request) {
 
 std::optional<Frame> RankBackend::finish(const PictureRequest& request) {
     if (options_.reuse) return draw_frame(request, 1);
-    Job& job = jobs_.front();
+    if (options_.goal.given())
+        return draw_until_good(request, [&](const PictureRequest& pass, TakeProgress progress) {
+            order(pass);
+            return receive(pass, progress);
+        });
     WorkPhase phase;
     phase.pixels = static_cast<double>(request.options.area().pixels());
     ProgressReporter reporter(listener(), {phase});
+    std::optional<Frame> frame =
+        receive(request, [&](const FrameProgress& made) { reporter.update(0, made); });
+    reporter.finish(frame.has_value(), 0);
+    return frame;
+}
+
+std::optional<Frame> RankBackend::receive(const PictureRequest& request, TakeProgress progress) {
+    const Job& job = jobs_.front();
     for (double told = -1; !job.picture && !stop().requested(); receive_news(true))
-        if (job.done > std::exchange(told, job.done)) reporter.update(0, {job.done, 0, 0});
-    reporter.finish(job.picture.has_value(), 0);
+        if (job.done > std::exchange(told, job.done)) progress({job.done, 0, 0});
     std::optional<Frame> frame;
     if (job.picture)
         frame = assemble_picture(*job.picture, request.options.width, request.options.height);

@@ -35,7 +35,9 @@ class RankBackend final : public RenderBackend {
     /// The next picture's blocks are there when the last ones of this one are still out. But before
     /// a deterministic one all rays of the one before must have ended.
     [[nodiscard]] std::size_t pictures_ahead() const override {
-        return options_.reuse || prepass() == CachePrepass::deterministic ? 1 : 2;
+        return options_.reuse || options_.goal.given() || prepass() == CachePrepass::deterministic
+                   ? 1
+                   : 2;
     }
     [[nodiscard]] RayDemand ray_demand(bool wait, bool begun) override;
     [[nodiscard]] LiveFrames& frames() override;
@@ -52,6 +54,10 @@ class RankBackend final : public RenderBackend {
     };
 
     // On rank 0.
+    void order(const PictureRequest& request);
+    /// What was ordered first; nothing: stopped.
+    [[nodiscard]] std::optional<Frame> receive(const PictureRequest& request,
+                                               TakeProgress progress);
     void receive_news(bool wait);
     [[nodiscard]] std::optional<AssembledFrame> draw(FrameOrder order, const StopFlag& stop);
     /// Until all that trace have prepared a change, or could not.

@@ -1,4 +1,5 @@
 // What every rank that traces does for a run.
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -17,10 +18,20 @@ namespace {
 struct OrderedPicture {
     OrderedPicture(const PictureOrder& order, const FrameOptions& wanted, const Tracer& tracer,
                    WorkerContexts& contexts, const StopFlag& stop)
-        : request(order.view, order.previous ? &*order.previous : nullptr, wanted),
-          renderer(tracer, request.camera, request.options, contexts, stop) {}
+        : request(order.view, order.previous ? &*order.previous : nullptr, wanted) {
+        if (order.samples > 0) take_pass(order);
+        renderer.emplace(tracer, request.camera, request.options, contexts, stop);
+    }
+    void take_pass(const PictureOrder& order) {
+        request.tiles.emplace(order.width, order.height);
+        if (!request.tiles->set_bytes(order.tiles))
+            throw InputError("a rank has got a pass over a picture of another size");
+        request.options.tiles = &*request.tiles;
+        request.options.pixels.samples = order.samples;
+        request.options.seed = order.seed;
+    }
     PictureRequest request;
-    BlockRenderer renderer;
+    std::optional<BlockRenderer> renderer;
 };
 
 }  // namespace
@@ -88,14 +99,14 @@ std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob
     if (!job.keep) options = quick_prepass(options);
     const auto picture =
         std::make_shared<OrderedPicture>(order, options, session_->tracer(), contexts_, stop());
-    if (prepass() == CachePrepass::deterministic) {
+    if (order.first && prepass() == CachePrepass::deterministic) {
         // Rank 0 orders no other picture meanwhile, so that no rays of another one are under way.
         // The tracing threads wait, and theirs is not to be called from one of its own tasks.
         const auto executor = make_executor(ExecutorKind::threads, executor_->concurrency());
         fill_cache(picture->request.camera, picture->request.options, CachePrepass::deterministic,
                    *executor);
     }
-    return {picture, &picture->renderer};
+    return {picture, &*picture->renderer};
 }
 
 std::string RankBackend::answer_chunk(const RayChunk& chunk, int worker) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/session/stopwatch.h"
 #include "core/error.h"
 #include "core/light/find_light_groups.h"
 #include "core/trace/trace_rays.h"
@@ -128,6 +129,43 @@ CachePrepass RenderBackend::prepass() const {
     if (!session_->freezable) return CachePrepass::none;
     if (options_.deterministic) return CachePrepass::deterministic;
     return options_.cache_prepass ? CachePrepass::quick : CachePrepass::none;
+}
+
+std::optional<Frame> RenderBackend::draw_until_good(const PictureRequest& request, DrawPass draw) {
+    const FrameOptions& options = request.options;
+    AdaptivePicture picture(options.width, options.height, options.pixels.samples, options.seed,
+                            options_.goal);
+    WorkPhase all;
+    all.pixels = static_cast<double>(options.area().pixels());
+    ProgressReporter reporter(listener(), {all});
+    const Stopwatch watch;
+    RayCounters rays;
+    AmbientCounters ambient;
+    bool first = true;
+    while (const std::optional<SamplePass> pass = picture.next(watch.seconds())) {
+        const std::optional<Frame> frame =
+            draw({request, *pass, std::exchange(first, false)}, [&](const FrameProgress& made) {
+                reporter.update(0, {picture.done(watch.seconds()), rays.total() + made.rays,
+                                    ambient.computed + made.ambient_values});
+            });
+        if (!frame) {
+            reporter.finish(false, rays.total());
+            return std::nullopt;
+        }
+        rays += frame->rays;
+        ambient += frame->ambient;
+        picture.add(*pass, *frame);
+        reporter.set_error(picture.error());
+    }
+    if (!picture.reached() && !(options_.goal.seconds > 0))
+        warnings_.warn("--error: not reached with " + std::to_string(picture.samples().most) +
+                       " rays in a pixel");
+    statistics_.sampling = RunStatistics::Sampling{picture.error().value_or(0), picture.samples()};
+    Frame made = picture.finish();
+    made.rays = rays;
+    made.ambient = ambient;
+    reporter.finish(true, rays.total());
+    return made;
 }
 
 std::optional<Frame> RenderBackend::draw_frame(const PictureRequest& request, int workers) {

@@ -13,6 +13,7 @@
 #include "core/math/function_ref.h"
 #include "core/trace/ray_tally.h"
 #include "core/view/view.h"
+#include "parallel/adaptive_picture.h"
 #include "parallel/cache_prepass.h"
 #include "parallel/executor.h"
 #include "parallel/frame.h"
@@ -31,6 +32,16 @@ struct PictureRequest {
         if (before != nullptr && !Camera::problem(*before)) previous.emplace(*before);
         options.previous = previous ? &*previous : nullptr;
     }
+    /// A pass over the picture of a request.
+    PictureRequest(const PictureRequest& picture, const SamplePass& pass, bool is_first)
+        : PictureRequest(picture.camera.view(),
+                         picture.previous ? &picture.previous->view() : nullptr, picture.options) {
+        tiles = pass.tiles;
+        first = is_first;
+        options.tiles = &*tiles;
+        options.pixels.samples = pass.samples;
+        options.seed = pass.seed;
+    }
     PictureRequest(const PictureRequest&) = delete;
     PictureRequest& operator=(const PictureRequest&) = delete;
 
@@ -38,6 +49,8 @@ struct PictureRequest {
     std::optional<Camera> previous;
     FrameOptions options;
     std::shared_ptr<CheckpointSink> checkpoint;  ///< null: none
+    std::optional<TileMask> tiles;               ///< of a pass; nothing: the whole picture
+    bool first = true;                           ///< of the passes of its picture
 };
 
 class RenderBackend {
@@ -102,6 +115,12 @@ class RenderBackend {
     /// starts anew.
     /// @param workers  that draw it, for estimates of the time it takes
     [[nodiscard]] std::optional<Frame> draw_frame(const PictureRequest& request, int workers);
+    /// Draws one pass over a picture, and tells how far it is; nothing: stopped.
+    using DrawPass =
+        FunctionRef<std::optional<Frame>(const PictureRequest& pass, TakeProgress progress)>;
+    /// Passes until the goal is reached, or the time is up.
+    [[nodiscard]] std::optional<Frame> draw_until_good(const PictureRequest& request,
+                                                       DrawPass draw);
     /// Before a frame of a walk, the first one of its size or a later one. False: stopped.
     [[nodiscard]] virtual bool prepare(const PictureRequest& /*request*/, bool /*first*/) {
         return true;

@@ -74,6 +74,8 @@ struct Renderer::Impl {
                                std::move(frame->radiance),
                                std::move(frame->distance),
                                frame->rays.total(),
+                               std::move(frame->error),
+                               std::move(frame->half),
                                {}};
             for (std::size_t g = 0; g < frame->groups.size(); ++g)
                 outcome.picture->layers.push_back(

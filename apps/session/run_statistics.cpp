@@ -70,6 +70,12 @@ std::string statistics_json(const RunStatistics& s) {
     if (s.ranks > 1) json["ranks"] = s.ranks;
     if (s.width > 0)
         json["picture"] = {{"width", s.width}, {"height", s.height}, {"frames", s.frames}};
+    if (s.sampling)
+        json["sampling"] = {{"error", s.sampling->error},
+                            {"rays_a_pixel",
+                             {{"least", s.sampling->samples.least},
+                              {"mean", s.sampling->samples.mean},
+                              {"most", s.sampling->samples.most}}}};
     json["seconds"] = {{"read", s.scene.read_seconds},
                        {"build", s.scene.build_seconds},
                        {"render", s.render_seconds}};

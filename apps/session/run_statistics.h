@@ -2,11 +2,13 @@
 // What a run took, for --stats.
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "apps/session/compiled_scene.h"
 #include "apps/session/walk_report.h"
 #include "core/trace/tracer.h"
+#include "parallel/adaptive_picture.h"
 #include "parallel/ranks/rank_report.h"
 
 namespace lightwalk {
@@ -23,6 +25,12 @@ struct RunStatistics {
     int threads = 1;
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;
+    /// Of the newest picture that was drawn until it was good.
+    struct Sampling {
+        double error = 0;                  ///< relative, that 95 % of the pixels are within
+        AdaptivePicture::Samples samples;  ///< a pixel
+    };
+    std::optional<Sampling> sampling;
     int ranks = 1;
     WalkReport walk;                    ///< frames that reused others' points
     std::map<int, RankReport> reports;  ///< of each rank; empty for one process

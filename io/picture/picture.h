@@ -38,6 +38,10 @@ struct PictureHeader {
 /// path for other extensions and failed writes.
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone);
+/// The same of an .exr with one more channel, called "error".
+/// @param error  of each pixel, as many as there are
+void write_exr(const std::string& path, const Picture& picture, const std::vector<float>& error,
+               const PictureHeader& header);
 /// Throws the InputError of write_picture for a path whose extension promises another format.
 void check_picture_name(const std::string& path);
 /// Whether write_picture writes a Radiance picture for this name.

@@ -94,6 +94,23 @@ void write_picture(const std::string& path, const Picture& picture, const Pictur
                           encode_for(path, [&] { return encode(format, picture, header, tone); }));
 }
 
+void write_exr(const std::string& path, const Picture& picture, const std::vector<float>& error,
+               const PictureHeader& header) {
+    assert(error.size() == picture.pixels.size());
+    const auto row = [&](int y, float* to) {
+        const auto width = static_cast<std::size_t>(picture.width);
+        const std::size_t first = static_cast<std::size_t>(y) * width;
+        for (std::size_t i = first; i < first + width; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) *to++ = picture.pixels[i][k];
+            *to++ = error[i];
+        }
+    };
+    write_file_atomically(
+        path, encode_for(path, [&] {
+            return encode_exr(picture.width, picture.height, {"R", "G", "B", "error"}, row, header);
+        }));
+}
+
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth) {
     assert(depth.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     if (extension_of(path) == ".exr") {

@@ -87,7 +87,7 @@ TEST_CASE("render: --samples traces every pixel, and says so when -ps asked for 
     const ProgramResult spaced =
         run_program(line({"--samples", "3", "-ps", "4", "-pj", "0", "-n", "3", scene}));
     CHECK(spaced.status == 0);
-    CHECK(spaced.err.find("-ps ignored: with --samples every pixel is traced") !=
+    CHECK(spaced.err.find("-ps ignored: every pixel is traced where they have several rays") !=
           std::string::npos);
     CHECK(pixel_bytes(spaced.out) == pixel_bytes(samples.out));
     CHECK(run_program(line({"--samples", "3", "-ps", "1", scene})).err.empty());

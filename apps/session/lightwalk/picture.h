@@ -20,6 +20,8 @@ struct RenderedPicture {
     std::vector<Rgb> radiance;          ///< width * height [W/(m² sr)]
     std::vector<float> distance;        ///< along the pixels' rays; 1e10: nothing, 0: no ray [m]
     std::uint64_t rays = 0;             ///< of all kinds that were traced for it, by this process
+    std::vector<float> error;           ///< with a SampleGoal: of pixels' luminance, relative
+    std::vector<Rgb> half;              ///< with a SampleGoal: radiance by half of the samples
     std::vector<RenderedLayer> layers;  ///< with light groups: they add up to the radiance
 };
 

@@ -50,6 +50,9 @@ struct RenderProgress {
     std::uint64_t rays = 0;              ///< traced so far
     double seconds = 0;                  ///< since it began
     std::optional<double> seconds_left;  ///< nothing: not known yet
+    /// With a SampleGoal: relative error of luminance that 95 % of the pixels are within; nothing:
+    /// not known.
+    std::optional<double> error = {};
 };
 
 /// Told once when a task begins, once when it ends, and now and then in between; may be called from
@@ -58,8 +61,11 @@ using TakeProgressReport = std::function<void(const RenderProgress& progress)>;
 
 /// What a renderer does with every task.
 struct RendererOptions {
-    RenderOptions light;         ///< how light is followed; defaults are those of Radiance's rpict
-    PixelOptions pixels;         ///< how pictures are sampled
+    RenderOptions light;  ///< how light is followed; defaults are those of Radiance's rpict
+    PixelOptions pixels;  ///< how pictures are sampled
+    /// Pictures get more samples, where they count most, until this is reached; pixels.samples are
+    /// those that they begin with. Without reuse and checkpoints.
+    SampleGoal goal;
     bool use_distances = false;  ///< distances count where pixels are interpolated and small light
                                  ///< sources drawn
     std::string ambient_file;  ///< indirect values are kept there, for other runs too; "": nowhere

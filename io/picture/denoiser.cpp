@@ -1,0 +1,136 @@
+#include "io/picture/denoiser.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr const char* kMissing = "option --denoise: Open Image Denoise is not installed: ";
+constexpr int kCpu = 1, kFloat3 = 3;  // OIDN_DEVICE_TYPE_CPU, OIDN_FORMAT_FLOAT3
+
+std::string last_error() {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
+    const char* text = dlerror();
+    return text != nullptr ? text : "unknown error";
+}
+
+/// Its state is kept until the process ends: it has threads of its own.
+void* open_library() {
+    for (const char* name : {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1",
+                             "libOpenImageDenoise.so.0", "libOpenImageDenoise.so"})
+        if (void* found = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) return found;
+    throw InputError(kMissing + last_error());
+}
+
+}  // namespace
+
+/// Its C interface: "Open Image Denoise API", openimagedenoise.org/documentation.html. Handles are
+/// pointers.
+struct Denoiser::Library {
+    Library() : library(open_library()) {
+        find(new_device, "oidnNewDevice");
+        find(commit_device, "oidnCommitDevice");
+        find(release_device, "oidnReleaseDevice");
+        find(device_error, "oidnGetDeviceError");
+        find(new_filter, "oidnNewFilter");
+        find(set_image, "oidnSetSharedFilterImage");
+        find(commit_filter, "oidnCommitFilter");
+        find(execute, "oidnExecuteFilter");
+        find(release_filter, "oidnReleaseFilter");
+        set_flag = reinterpret_cast<SetFlag>(dlsym(library, "oidnSetFilterBool"));
+        if (set_flag == nullptr) find(set_flag, "oidnSetFilter1b");  // of version 1
+        device = new_device(kCpu);
+        if (device == nullptr) throw InputError(std::string(kMissing) + "it finds no device");
+        commit_device(device);
+        check();
+    }
+    ~Library() {
+        if (device != nullptr) release_device(device);
+    }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+
+    template <class Function>
+    void find(Function& function, const char* name) const {
+        function = reinterpret_cast<Function>(dlsym(library, name));
+        if (function == nullptr) throw InputError(kMissing + last_error());
+    }
+
+    void check() const {
+        const char* why = nullptr;
+        if (device_error(device, &why) != 0)
+            throw InputError(std::string("Open Image Denoise: ") +
+                             (why != nullptr ? why : "failed"));
+    }
+
+    void filter(const Rgb* noisy, Rgb* clean, std::size_t width, std::size_t height) const {
+        void* made = new_filter(device, "RT");
+        if (made == nullptr) return check();
+        set_image(made, "color", const_cast<Rgb*>(noisy), kFloat3, width, height, 0, 0, 0);
+        set_image(made, "output", clean, kFloat3, width, height, 0, 0, 0);
+        set_flag(made, "hdr", true);
+        commit_filter(made);
+        execute(made);
+        release_filter(made);
+        check();
+    }
+
+    using SetFlag = void (*)(void* filter, const char* name, bool value);
+    void* library;
+    void* device = nullptr;
+    void* (*new_device)(int type) = nullptr;
+    void (*commit_device)(void* device) = nullptr;
+    void (*release_device)(void* device) = nullptr;
+    int (*device_error)(void* device, const char** message) = nullptr;
+    void* (*new_filter)(void* device, const char* type) = nullptr;
+    void (*set_image)(void* filter, const char* name, void* pixels, int format, std::size_t width,
+                      std::size_t height, std::size_t offset, std::size_t pixel_stride,
+                      std::size_t row_stride) = nullptr;
+    SetFlag set_flag = nullptr;
+    void (*commit_filter)(void* filter) = nullptr;
+    void (*execute)(void* filter) = nullptr;
+    void (*release_filter)(void* filter) = nullptr;
+};
+
+Denoiser::Denoiser() : library_(std::make_unique<Library>()) {}
+Denoiser::~Denoiser() = default;
+Denoiser::Denoiser(Denoiser&&) noexcept = default;
+Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
+
+void Denoiser::operator()(Picture& picture) {
+    if (picture.pixels.empty()) return;
+    std::vector<Rgb> clean(picture.pixels.size());
+    library_->filter(picture.pixels.data(), clean.data(), static_cast<std::size_t>(picture.width),
+                     static_cast<std::size_t>(picture.height));
+    picture.pixels = std::move(clean);
+}
+
+Denoiser::Errors Denoiser::errors(const Picture& picture, std::span<const Rgb> half,
+                                  const DisplayTone& tone) {
+    Picture one{picture.width, picture.height, {half.begin(), half.end()}};
+    Picture other = picture;
+    for (std::size_t i = 0; i < half.size(); ++i) other.pixels[i] = 2 * picture.pixels[i] - half[i];
+    const auto of_one = display_pixels(one, tone), of_other = display_pixels(other, tone);
+    (*this)(one);
+    const auto of_clean = display_pixels(one, tone);
+    double noise = 0, apart = 0;
+    for (std::size_t i = 0; i < of_one.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            noise += std::pow((of_one[i][k] - of_other[i][k]) / 255.0, 2);
+            apart += std::pow((of_clean[i][k] - of_other[i][k]) / 255.0, 2);
+        }
+    }
+    const double count = 3 * std::max(static_cast<double>(of_one.size()), 1.0);
+    // A half has half of the squared difference of both, their mean a quarter.
+    return {std::sqrt(noise / 4 / count), std::sqrt(std::max(apart - noise / 2, 0.0) / count)};
+}
+
+}  // namespace lightwalk
