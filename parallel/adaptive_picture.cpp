@@ -166,7 +166,7 @@ bool AdaptivePicture::reached() const {
 
 /// More samples a pixel, in both halves, that a tile should get where tiles have `scale` of them in
 /// proportion to the standard deviation of one: the least sum of squared errors for all samples
-/// together. 0, or a power of two up to four times what it has, since the estimate is rough.
+/// together. 0, or a power of two, of a few times what it has at most, since the estimate is rough.
 int AdaptivePicture::wanted(std::size_t tile, double scale) const {
     const double have = 2 * counts_[tile];
     if (have >= kMostSamples) return 0;

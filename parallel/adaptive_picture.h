@@ -27,10 +27,10 @@ struct SamplePass {
 /// Zwicker, "Adaptive rendering with non-local means filtering", ACM Transactions on Graphics
 /// 31(6), 2012): their halved difference is distributed as the error of their mean, which is the
 /// picture. Its ratio to the pixel's luminance is the pixel's error; pixels darker than a hundredth
-/// of the picture's mean are told in relation to that. Its mean over a tile says where samples are
-/// worth most: they are shared out in proportion to the standard deviation of one, for the least
-/// sum of squared errors. What no sample has met is not in the estimate, nor is the error of
-/// indirect light that is interpolated between cached values.
+/// of the picture's mean are told in relation to that. The mean of these errors over a tile says
+/// where samples are worth most: they are shared out in proportion to the standard deviation of
+/// one, for the least sum of squared errors. What no sample has met is not in the estimate, nor is
+/// the error of indirect light that is interpolated between cached values.
 ///
 /// The passes, and so the picture, depend on what is added and on the goal's error alone; with a
 /// limit of time on the times that are said, too. For one thread.

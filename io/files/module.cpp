@@ -7,12 +7,6 @@
 namespace lightwalk {
 namespace {
 
-std::string last_error() {
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
-    const char* text = dlerror();
-    return text != nullptr ? text : "unknown error";
-}
-
 /// Of the program or the shared library that this code is a part of.
 std::filesystem::path own_folder() {
     Dl_info found{};
@@ -21,6 +15,12 @@ std::filesystem::path own_folder() {
 }
 
 }  // namespace
+
+std::string loading_error() {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
+    const char* text = dlerror();
+    return text != nullptr ? text : "unknown error";
+}
 
 void* load_from_module(const char* file, const char* symbol, std::string& error) {
     std::error_code failed;
@@ -34,11 +34,11 @@ void* load_from_module(const char* file, const char* symbol, std::string& error)
          }) {
         void* module = dlopen((folder / file).c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
-            error = last_error();
+            error = loading_error();
             continue;
         }
         void* found = dlsym(module, symbol);
-        if (found == nullptr) error = last_error();
+        if (found == nullptr) error = loading_error();
         return found;
     }
     return nullptr;

@@ -8,5 +8,7 @@ namespace lightwalk {
 /// the program, in the installation's lib folder and where it was built, and stays loaded until the
 /// process ends. On failure the result is null and `error` is the reason.
 [[nodiscard]] void* load_from_module(const char* file, const char* symbol, std::string& error);
+/// Why this thread's last dlopen() or dlsym() has failed.
+[[nodiscard]] std::string loading_error();
 
 }  // namespace lightwalk

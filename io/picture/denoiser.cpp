@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/files/module.h"
 
 namespace lightwalk {
 namespace {
@@ -16,18 +17,12 @@ namespace {
 constexpr const char* kMissing = "option --denoise: Open Image Denoise is not installed: ";
 constexpr int kCpu = 1, kFloat3 = 3;  // OIDN_DEVICE_TYPE_CPU, OIDN_FORMAT_FLOAT3
 
-std::string last_error() {
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
-    const char* text = dlerror();
-    return text != nullptr ? text : "unknown error";
-}
-
 /// Its state is kept until the process ends: it has threads of its own.
 void* open_library() {
     for (const char* name : {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1",
                              "libOpenImageDenoise.so.0", "libOpenImageDenoise.so"})
         if (void* found = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) return found;
-    throw InputError(kMissing + last_error());
+    throw InputError(kMissing + loading_error());
 }
 
 }  // namespace
@@ -61,7 +56,7 @@ struct Denoiser::Library {
     template <class Function>
     void find(Function& function, const char* name) const {
         function = reinterpret_cast<Function>(dlsym(library, name));
-        if (function == nullptr) throw InputError(kMissing + last_error());
+        if (function == nullptr) throw InputError(kMissing + loading_error());
     }
 
     void check() const {

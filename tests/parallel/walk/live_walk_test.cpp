@@ -226,7 +226,7 @@ TEST_CASE("an eye that has rested finds what lies beside its view when it turns"
     Walker stares(0), looks(0);
     looks.live.look_around(true);
     CHECK(reused(stares) == 0);
-    CHECK(reused(looks) > 0.4);
+    CHECK(reused(looks) > 0.7);
 }
 
 TEST_CASE("looking around changes nothing of a picture at rest, nor of its light") {
