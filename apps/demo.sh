@@ -19,10 +19,10 @@ width="${2:-640}"
 out="${3:-$root/out/demo}"
 mkdir -p "$out"
 cd apps/scenes/lodge
-rm -f "$out/day.amb" "$out/night.amb"
+rm -f "$out"/day*.amb "$out"/night*.amb
 # All views of one light share its ambient file. -dj with several samples a pixel: soft shadows without steps.
 # Indirect values reach at least -aa/-ar of the scene's size, here 800 m with its hills: half a metre indoors, less
-# than that under the eaves.
+# than that under the eaves. Terraces are seen with finer values, which have files of their own.
 render() { # LIGHT VIEW OPTIONS...
     light="$1" view="$2"
     shift 2
@@ -34,10 +34,10 @@ render() { # LIGHT VIEW OPTIONS...
 for view in living window dining; do
     render day "$view" -av .2 .2 .19 -ds .3
 done
-render day terrace -av .2 .2 .19 -ds .3 -ar 1024
+render day terrace -av .2 .2 .19 -ds .3 -ar 1024 -af "$out/day-terrace.amb"
 for view in living fireplace; do
     render night "$view" -av .004 .003 .002 -ds .08
 done
-render night terrace -av .004 .003 .002 -ds .08 -ar 1024
-rm -f "$out/day.amb" "$out/night.amb"
+render night terrace -av .004 .003 .002 -ds .08 -ar 1024 -af "$out/night-terrace.amb"
+rm -f "$out"/day*.amb "$out"/night*.amb
 echo "The pictures are in $out"
