@@ -14,7 +14,7 @@ class MovingSize {
     void set_patient(bool patient);
     /// Before the next frame: how many pixels it may have at most, of so many that are wished for.
     void limit(int width, int height, double most_pixels);
-    /// Share of the width and of the height that are wished for, 0.25 ... 1.
+    /// Share of the width and of the height that are wished for, 0.15 ... 1.
     [[nodiscard]] double share() const;
     [[nodiscard]] int of(int side) const;
     /// What the next frame may take of a picture of which so many pixels are wished for, in periods
@@ -25,9 +25,9 @@ class MovingSize {
     void record(const CloudReport& report, double budget);
 
   private:
-    [[nodiscard]] int last_step(double pixels) const;
+    [[nodiscard]] int last_step(double pixels, double least) const;
     [[nodiscard]] int first_step() const;
-    void step(int by, double pixels);
+    void step(int by, double pixels, double least);
 
     bool patient_ = false;
     int step_ = 5;          ///< of the table of shares; the first frames know little, and are small

@@ -55,16 +55,42 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     CHECK(much.of(1) == 1);
 }
 
+namespace {
+
+/// Frames of so many pixels at full size, of which a share is guessed.
+void record_of(MovingSize& size, int frames, int pixels, double guessed, double time = 1) {
+    for (int i = 0; i < frames; ++i) {
+        CloudReport report;
+        report.pixels = static_cast<std::size_t>(size.share() * size.share() * pixels);
+        report.filled = static_cast<std::size_t>(guessed * static_cast<double>(report.pixels));
+        report.check_seconds = time;
+        size.record(report, 1);
+    }
+}
+
+constexpr int kHd = 1280 * 720, kFullHd = 1920 * 1080;
+
+}  // namespace
+
 TEST_CASE("moving size: frames of large pictures may be a quarter as wide, of others a third") {
-    for (const auto& [pixels, least] : {std::pair(1280 * 720, 354), std::pair(1920 * 1080, 250)}) {
+    for (const auto& [pixels, least] : {std::pair(kHd, 354), std::pair(kFullHd, 250)}) {
         MovingSize size;
-        for (int i = 0; i < 100; ++i) {
-            CloudReport report;
-            report.pixels = report.filled =
-                static_cast<std::size_t>(size.share() * size.share() * pixels);
-            size.record(report, 1);
-        }
+        record_of(size, 100, pixels, 0.05);
         CHECK(size.of(1000) == least);
+    }
+}
+
+TEST_CASE("moving size: where much would be guessed all the same, frames are rather blurred") {
+    for (const auto& [pixels, least] :
+         {std::pair(640 * 480, 354), std::pair(kHd, 177), std::pair(kFullHd, 149)}) {
+        MovingSize size;
+        record_of(size, 100, pixels, 1);
+        CHECK(size.of(1000) == least);
+        // So they stay while a little is guessed, and grow where nothing is.
+        record_of(size, 100, pixels, 0.03, 0.3);
+        CHECK(size.of(1000) == least);
+        record_of(size, 1000, pixels, 0, 0.1);
+        CHECK(size.of(1000) == 1000);
     }
 }
 
