@@ -95,6 +95,33 @@ TEST_CASE("render: an .exr of --error holds each pixel's error, and the picture 
                 max_component(other.pixels[i]) / 128);
 }
 
+TEST_CASE("render: an .exr of layers holds the whole picture's error as well") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kBars), file = folder.path("a.exr");
+    const auto exr = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--light-group", "lamp=lamp", "-o", file});
+        REQUIRE(run_program(render_words(std::move(words), scene)).status == 0);
+        return read_whole(file);
+    };
+    const std::string bytes = exr({"--error", ".1"});
+    const auto channel = [](const std::string& of) { return of.find(std::string("error\0", 6)); };
+    CHECK(channel(bytes) < 400);  // in the head
+    CHECK(channel(exr({"--samples", "4"})) == std::string::npos);
+    const LayersHeader header = read_layers_header(bytes, file);
+    CHECK(std::ranges::find(header.names, "error") == header.names.end());  // no layer of light
+    CHECK(std::ranges::find(header.names, "lamp") != header.names.end());
+    const auto sum = [&](const std::string& made, std::size_t layers) {
+        Picture picture{48, 32, std::vector<Rgb>(48 * 32)};
+        add_layers(made, file, std::vector<Rgb>(layers, {1, 1, 1}), picture);
+        return picture.pixels;
+    };
+    REQUIRE(run_program(render_words({"--error", ".1", "-o", file}, scene)).status == 0);
+    const std::vector<Rgb> whole = sum(read_whole(file), 1);
+    const std::vector<Rgb> layers = sum(bytes, header.names.size());
+    for (std::size_t i = 0; i < whole.size(); ++i)  // the same samples
+        REQUIRE(layers[i].g == doctest::Approx(whole[i].g).epsilon(1e-4));
+}
+
 TEST_CASE("render: --time is a limit beside --error, and the picture is whole") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kBars), stats = folder.path("s.json");
