@@ -146,10 +146,11 @@ std::optional<Frame> RenderBackend::draw_until_good(const PictureRequest& reques
         const std::optional<Frame> frame =
             draw({request, *pass, std::exchange(first, false)}, [&](const FrameProgress& made) {
                 reporter.update(0, {picture.done(watch.seconds()), rays.total() + made.rays,
+    const std::uint64_t before = statistics_.rays.total();
                                     ambient.computed + made.ambient_values});
             });
         if (!frame) {
-            reporter.finish(false, rays.total());
+            reporter.finish(false, statistics_.rays.total() - before);
             return std::nullopt;
         }
         rays += frame->rays;
@@ -164,7 +165,7 @@ std::optional<Frame> RenderBackend::draw_until_good(const PictureRequest& reques
     Frame made = picture.finish();
     made.rays = rays;
     made.ambient = ambient;
-    reporter.finish(true, rays.total());
+    reporter.finish(true, statistics_.rays.total() - before);
     return made;
 }
 
