@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "core/light/find_light_groups.h"
 #include "core/model/transform_args.h"
+#include "core/view/pixel_samples.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_options.h"
 #include "io/picture/film.h"
@@ -92,11 +93,20 @@ std::vector<OptionRow> pixel_rows(RenderCommand& c) {
          "powers of two (-ps is then 1 and -pj does not count; -z tells the distance along the ray "
          "nearest to the pixel's centre)",
          With{.least = 1, .most = 65536}},
+        {"--pixel-filter FILTER",
+         choice(p.filter,
+                {{"gaussian", PixelFilter::gaussian}, {"mitchell", PixelFilter::mitchell}}),
+         "with --samples, --error or --time: gaussian: as above; mitchell: the cubic of Mitchell & "
+         "Netravali (B = C = 1/3), over 4 pixels: sharper, but its weights are negative from 1.1 "
+         "pixels on: beside a bright edge it is a little too dark, around small bright lights "
+         "there "
+         "are rings, and what would be less than nothing is 0, in each layer by itself",
+         With{.commands = kRender | kAnimate}},
         {"--error E", &c.common.request.options.goal.error,
          "relative error | rays are added where the picture needs them until 95 % of its pixels "
          "are within E of their luminance, as estimated from two halves of the rays: .05 is 5 %. "
          "--samples are those that each pixel begins with (at least 4). An .exr holds the error in "
-         "a channel of that name, --stats what was reached",
+         "a channel of that name (with layers, that of the whole picture), --stats what was reached",
          With{.least = 0, .most = 1, .shown = "", .commands = kRender | kAnimate}},
         {"--time SECONDS", &c.common.request.options.goal.seconds,
          "time for a picture [s] | the same until the time is up, but for reading, writing and the "
@@ -262,6 +272,25 @@ void check_layers(const RenderCommand& command) {
         throw UsageError("option -af: an ambient file holds no values of light groups");
 }
 
+/// Negative weights need samples that pixels share.
+void check_filter(const RenderCommand& command) {
+    const RendererOptions& options = command.common.request.options;
+    if (!has_negative_weights(options.pixels.filter)) return;
+    const std::string option = "option --pixel-filter: ";
+    if (options.pixels.samples == 1 && !options.goal.given())
+        throw UsageError(option +
+                         "there is nothing to filter where pixels have one ray: say "
+                         "--samples or --error");
+    if (command.output.denoise)
+        throw UsageError(option +
+                         "pixels that are denoised (--denoise) share no rays, which "
+                         "mitchell needs");
+    if (command.walk && command.walk->reuse)
+        throw UsageError(option +
+                         "frames that reuse each other's points have pixels of their own, "
+                         "by a Gaussian: say --reuse off");
+}
+
 void check_outputs(const RenderCommand& command) {
     const SeriesOutput& output = command.output;
     if (output.layers) check_layers(command);
@@ -285,6 +314,7 @@ void check_outputs(const RenderCommand& command) {
         throw UsageError(
             "options --error and --time: frames that reuse each other's points have samples of "
             "their own: say --reuse off");
+    check_filter(command);
     if (command.resume && command.checkpoint.empty())
         throw UsageError("option --resume: name the file with --checkpoint");
     (void)frame_name(output.depth, 0);

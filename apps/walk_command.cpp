@@ -200,6 +200,10 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
          "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
          "render`",
          With{.least = 1, .most = 255}},
+        {"--denoise", &serve.denoise,
+         "the page offers to show pictures at rest without the noise that is left, by Open Image "
+         "Denoise where it is installed (libOpenImageDenoise of version 1 or 2). What is measured, "
+         "false colours and what is saved as .hdr stay as they were traced"},
         {"--beside FILES", &serve.beside,
          "octree, frozen scene or scene files, in one word with spaces between them, that the page "
          "shows beside the walk's scene where somebody compares; else that is the scene itself, at "

@@ -37,6 +37,7 @@ struct ServeCommand {
     int edge_samples = 8;     ///< --edge-samples: rays a pixel at an edge gets at rest
     std::string beside;       ///< --beside: files of the scene to be compared; "": the walk's own
     bool watch = true;        ///< --watch: files that are edited are read again
+    bool denoise = false;     ///< --denoise: pictures at rest may be, for the eye
 };
 
 /// The rows of animate's own options, which walk takes as well but for those on the path.

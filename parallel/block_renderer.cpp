@@ -11,8 +11,9 @@ namespace lightwalk {
 namespace {
 
 constexpr int kPacketSide = 8;  ///< pixels traced together when every pixel is traced
-/// Side of blocks whose pixels share samples: a block traces those around it again, .8 pixels wide,
-/// a tenth of its own at this size, a twentieth at the largest that block_side() makes.
+/// Side of blocks whose pixels share samples: a block traces those around it again. With a Gaussian
+/// they are .8 pixels wide, a tenth of its own at this size, a twentieth at the largest that
+/// block_side() makes; with Mitchell's filter 1.5, twice as many.
 constexpr int kSharingSide = 32;
 
 /// Neighbours are there where every pixel is traced.

@@ -13,12 +13,17 @@ FilteredBlock::FilteredBlock(const PixelRays& rays, const FrameOptions& options,
                              const PixelRectangle& block, std::size_t groups)
     : rays_(rays),
       options_(options),
+      filter_(options.pixels.filter),
+      reach_(pixel_filter_reach(filter_)),
+      farthest_(reached_pixels(filter_)),
+      side_(2 * farthest_ + 1),
       block_(block),
-      around_{block.x0 - 1, block.y0 - 1, block.x1 + 1, block.y1 + 1},
+      around_{block.x0 - farthest_, block.y0 - farthest_, block.x1 + farthest_,
+              block.y1 + farthest_},
       groups_(groups),
       layers_(1 + (options.hits ? 1 : 0) + groups),
-      weights_(around_.pixels() * kReached),
-      sums_(around_.pixels() * kReached * layers_),
+      weights_(around_.pixels() * reached()),
+      sums_(around_.pixels() * reached() * layers_),
       nearest_(block.pixels(), std::numeric_limits<double>::infinity()),
       layer_values_(layers_) {}
 
@@ -30,9 +35,8 @@ FilteredBlock::Sample FilteredBlock::sample_at(const PixelPlace& place, int samp
 /// Whether a pixel of the block reaches the sample.
 bool FilteredBlock::counts(const Sample& sample) const {
     const double x = sample.place.x + sample.offset.x, y = sample.place.y + sample.offset.y;
-    return x > block_.x0 - kPixelFilterReach && x < block_.x1 - 1 + kPixelFilterReach &&
-           y > block_.y0 - kPixelFilterReach && y < block_.y1 - 1 + kPixelFilterReach &&
-           (options_.tiles == nullptr || reaches(x, y, kPixelFilterReach));
+    return x > block_.x0 - reach_ && x < block_.x1 - 1 + reach_ && y > block_.y0 - reach_ &&
+           y < block_.y1 - 1 + reach_ && (options_.tiles == nullptr || reaches(x, y, reach_));
 }
 
 bool FilteredBlock::reaches(double x, double y, double reach) const {
@@ -48,7 +52,7 @@ void FilteredBlock::trace(PixelTracer& trace, const PixelRectangle& packet, int 
     samples_.clear();
     for (int y = packet.y1; y-- > packet.y0;) {  // from the top
         for (int x = packet.x0; x < packet.x1; ++x) {
-            if (options_.tiles != nullptr && !reaches(x, y, kPixelFilterReach + 0.5)) continue;
+            if (options_.tiles != nullptr && !reaches(x, y, reach_ + 0.5)) continue;
             const Sample at = sample_at({x, y}, sample);
             if (!counts(at)) continue;
             places_.push_back(at.place);
@@ -84,19 +88,41 @@ void FilteredBlock::keep_nearest(const Sample& sample, const PixelValue& value, 
 
 /// Adds layer_values_ to what the sample's pixel sends to those around it.
 void FilteredBlock::add(const Sample& sample) {
-    std::array<double, 3> across{}, up{};
-    for (int k = 0; k < 3; ++k) {
-        across[static_cast<std::size_t>(k)] = pixel_filter(sample.offset.x - (k - 1));
-        up[static_cast<std::size_t>(k)] = pixel_filter(sample.offset.y - (k - 1));
+    std::array<double, 2 * kFarthest + 1> across{}, up{};
+    const auto side = static_cast<std::size_t>(side_);
+    for (std::size_t k = 0; k < side; ++k) {
+        const int step = static_cast<int>(k) - farthest_;
+        across[k] = pixel_filter(filter_, sample.offset.x - step);
+        up[k] = pixel_filter(filter_, sample.offset.y - step);
     }
-    const std::size_t first = around_.index(sample.place) * kReached;
-    for (std::size_t k = 0; k < kReached; ++k) {
-        const auto weight = static_cast<float>(up[k / 3] * across[k % 3]);
-        if (!(weight > 0)) continue;
+    const std::size_t first = around_.index(sample.place) * reached();
+    for (std::size_t k = 0; k < reached(); ++k) {
+        const auto weight = static_cast<float>(up[k / side] * across[k % side]);
+        if (weight == 0) continue;
         weights_[first + k] += weight;
         Rgb* sum = &sums_[(first + k) * layers_];
         for (const Rgb& value : layer_values_) *sum++ += value * weight;
     }
+}
+
+/// Sets `sums`, one a layer, to the pixel's filtered values.
+void FilteredBlock::sum_up(const PixelPlace& place, std::span<Rgb> sums) const {
+    std::fill(sums.begin(), sums.end(), Rgb{});
+    float weight = 0;
+    const int count = side_ * side_;
+    for (int k = 0; k < count; ++k) {
+        // The k-th pixel around this one, for which this one is the last but k.
+        const PixelPlace from{place.x + k % side_ - farthest_, place.y + k / side_ - farthest_};
+        const std::size_t sent =
+            around_.index(from) * reached() + static_cast<std::size_t>(count - 1 - k);
+        weight += weights_[sent];
+        for (std::size_t layer = 0; layer < layers_; ++layer)
+            sums[layer] += sums_[sent * layers_ + layer];
+    }
+    const float share = 1 / weight;
+    for (Rgb& sum : sums) sum *= share;
+    if (!has_negative_weights(filter_) || options_.tiles != nullptr) return;
+    std::ranges::transform(sums, sums.begin(), positive_part);
 }
 
 void FilteredBlock::gather(BlockPixels& pixels) const {
@@ -108,19 +134,7 @@ void FilteredBlock::gather(BlockPixels& pixels) const {
         if (options_.tiles != nullptr &&
             !options_.tiles->meets({place.x, place.y, place.x + 1, place.y + 1}))
             continue;
-        std::fill(sums.begin(), sums.end(), Rgb{});
-        float weight = 0;
-        for (int k = 0; k < static_cast<int>(kReached); ++k) {
-            // The k-th pixel around this one, for which this one is the last but k.
-            const PixelPlace from{place.x + k % 3 - 1, place.y + k / 3 - 1};
-            const std::size_t sent =
-                around_.index(from) * kReached + kReached - 1 - static_cast<std::size_t>(k);
-            weight += weights_[sent];
-            for (std::size_t layer = 0; layer < layers_; ++layer)
-                sums[layer] += sums_[sent * layers_ + layer];
-        }
-        const float share = 1 / weight;
-        for (Rgb& sum : sums) sum *= share;
+        sum_up(place, sums);
         auto layer = sums.cbegin();
         pixels.values[at].radiance = *layer++;
         if (options_.hits) pixels.hits[at].mirrored = *layer++;

@@ -22,7 +22,8 @@ struct FrameOptions {
     /// The window to render, inside the picture; nothing: all of it. In traced pixels: those of the
     /// smaller picture when `step` is not 1.
     std::optional<PixelRectangle> window;
-    /// Where every pixel is traced, the tiles that are: pixels of others are black. Null: all.
+    /// Where every pixel is traced, the tiles that are: pixels of others are black. Null: all. They
+    /// are for a mean of several pictures, and may be negative where the pixels' filter is.
     const TileMask* tiles = nullptr;
     bool hits = false;  ///< whether to return the first hit of each pixel, too
 

@@ -47,7 +47,9 @@ std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
     const std::uint64_t before = statistics_.rays.total();
     ProgressReporter reporter(listener(), phases);
     Frame frame;
-    if (fill_cache(request, [&](const FrameProgress& made) { reporter.update(0, made); })) {
+    if (fill_cache(request, [&](const FrameProgress& made) {
+            reporter.update(0, made);
+        }).complete) {
         frame = render_frame(
             session_->tracer(), request.camera, request.options, *executor_, contexts_, stop(),
             [&](const FrameProgress& made) { reporter.update(picture, made); },
@@ -60,33 +62,42 @@ std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
     return frame;
 }
 
-/// The first pass of a picture fills the cache for all of them.
+/// The first pass of a picture fills the cache for all of them, and has the rays of that.
 std::optional<Frame> LocalBackend::draw_pass(const PictureRequest& pass, TakeProgress progress) {
-    if (pass.first && !fill_cache(pass, progress)) return std::nullopt;
+    CachePrepassResult filled;
+    if (pass.first) filled = fill_cache(pass, progress);
+    if (pass.first && !filled.complete) return std::nullopt;
+    const auto with_filled = [&](const FrameProgress& made) {
+        progress({made.done, filled.rays.total() + made.rays,
+                  filled.ambient.computed + made.ambient_values});
+    };
     Frame frame = render_frame(session_->tracer(), pass.camera, pass.options, *executor_, contexts_,
-                               stop(), progress);
+                               stop(), with_filled);
     statistics_.rays += frame.rays;
     statistics_.ambient += frame.ambient;
     if (!frame.complete) return std::nullopt;
+    frame.rays += filled.rays;
+    frame.ambient += filled.ambient;
     return frame;
 }
 
-/// False: stopped.
-bool LocalBackend::fill_cache(const PictureRequest& request, TakeProgress progress) {
-    if (!session_->freezable) return true;
-    const CachePrepassResult filled =
-        fill_ambient_cache(session_->tracer(), request.camera, request.options, prepass(),
-                           *session_->freezable, *executor_, contexts_, stop(), progress);
+/// Counted in the statistics. Not complete: stopped.
+CachePrepassResult LocalBackend::fill_cache(const PictureRequest& request, TakeProgress progress) {
+    CachePrepassResult filled;
+    filled.complete = true;
+    if (!session_->freezable) return filled;
+    filled = fill_ambient_cache(session_->tracer(), request.camera, request.options, prepass(),
+                                *session_->freezable, *executor_, contexts_, stop(), progress);
     statistics_.rays += filled.rays;
     statistics_.ambient += filled.ambient;
-    return filled.complete;
+    return filled;
 }
 
 /// The first frame fills the ambient cache for all; a deterministic walk has each do so, whose rays
 /// find the cache frozen.
 bool LocalBackend::prepare(const PictureRequest& request, bool first) {
     if (!first && prepass() != CachePrepass::deterministic) return true;
-    return fill_cache(request, [](const FrameProgress&) {});
+    return fill_cache(request, [](const FrameProgress&) {}).complete;
 }
 
 LiveFrames& LocalBackend::frames() {

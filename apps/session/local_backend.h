@@ -20,7 +20,8 @@ class LocalBackend final : public RenderBackend {
 
   private:
     [[nodiscard]] bool prepare(const PictureRequest& request, bool first) override;
-    [[nodiscard]] bool fill_cache(const PictureRequest& request, TakeProgress progress);
+    [[nodiscard]] CachePrepassResult fill_cache(const PictureRequest& request,
+                                                TakeProgress progress);
 
     [[nodiscard]] std::optional<Frame> draw_pass(const PictureRequest& pass, TakeProgress progress);
     void fill_coefficients(const RayTask& list);

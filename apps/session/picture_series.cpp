@@ -142,7 +142,7 @@ void PictureSeries::write_layers_of(const Picture& whole, const RenderedPicture&
     std::vector<PictureLayer> layers;
     for (const RenderedLayer& layer : rendered.layers)
         layers.push_back({layer.name, layer.radiance});
-    write_layers(output_.picture, whole, layers, header,
+    write_layers(output_.picture, whole, layers, rendered.error, header,
                  [&](const std::string& pattern) { return frame_name(pattern, number); });
 }
 

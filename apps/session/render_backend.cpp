@@ -10,6 +10,7 @@
 #include "core/light/find_light_groups.h"
 #include "core/trace/trace_rays.h"
 #include "core/transport/ray.h"
+#include "core/view/pixel_samples.h"
 
 namespace lightwalk {
 namespace {
@@ -17,6 +18,13 @@ namespace {
 /// Three channels and a distance.
 constexpr std::size_t kAnswerNumbers = 4;
 constexpr std::size_t kAnswerBytes = kAnswerNumbers * sizeof(double);
+
+/// Pixels and layers that negative weights have left below it.
+void cut_off_at_zero(Frame& frame) {
+    std::ranges::transform(frame.radiance, frame.radiance.begin(), positive_part);
+    for (std::vector<Rgb>& group : frame.groups)
+        std::ranges::transform(group, group.begin(), positive_part);
+}
 
 }  // namespace
 
@@ -138,6 +146,7 @@ std::optional<Frame> RenderBackend::draw_until_good(const PictureRequest& reques
     WorkPhase all;
     all.pixels = static_cast<double>(options.area().pixels());
     ProgressReporter reporter(listener(), {all});
+    const std::uint64_t before = statistics_.rays.total();
     const Stopwatch watch;
     RayCounters rays;
     AmbientCounters ambient;
@@ -149,7 +158,7 @@ std::optional<Frame> RenderBackend::draw_until_good(const PictureRequest& reques
                                     ambient.computed + made.ambient_values});
             });
         if (!frame) {
-            reporter.finish(false, rays.total());
+            reporter.finish(false, statistics_.rays.total() - before);
             return std::nullopt;
         }
         rays += frame->rays;
@@ -162,9 +171,10 @@ std::optional<Frame> RenderBackend::draw_until_good(const PictureRequest& reques
                        " rays in a pixel");
     statistics_.sampling = RunStatistics::Sampling{picture.error().value_or(0), picture.samples()};
     Frame made = picture.finish();
+    if (has_negative_weights(options.pixels.filter)) cut_off_at_zero(made);
     made.rays = rays;
     made.ambient = ambient;
-    reporter.finish(true, rays.total());
+    reporter.finish(true, statistics_.rays.total() - before);
     return made;
 }
 

@@ -12,6 +12,9 @@ export function display_words({ mode, exposure, human, scale }, ev) {
     return `Exposure ${stops(ev)} EV${how}${human ? ", as the eye sees" : ""}`;
 }
 
+/** What stands under every picture that is saved as the eye was shown it, without its noise. */
+export const kDenoised = "Denoised for the eye: its pixels are not what was calculated.";
+
 const rounded = (x) => (Array.isArray(x) ? x.map(rounded) : Number(Number(x).toPrecision(5)));
 
 /**

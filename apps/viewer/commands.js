@@ -1,5 +1,5 @@
 // What buttons and keys do, each named once.
-import { caption_lines } from "./caption.js";
+import { caption_lines, kDenoised } from "./caption.js";
 import { token_query } from "./connection.js";
 import { by_id } from "./dom.js";
 import { levelled, view_at_pick } from "./go_there.js";
@@ -202,9 +202,11 @@ class Commands {
 
     /** The lines under pictures, where they are wanted. */
     caption_() {
-        if (!by_id("caption").checked) return [];
-        const { display, present_ev } = this.light;
-        return caption_lines(this.scene(), this.present_view(), display, present_ev, new Date());
+        const { display, present_ev, denoised } = this.light;
+        const clean = denoised ? [kDenoised] : [];
+        if (!by_id("caption").checked) return clean;
+        const view = this.present_view();
+        return [...caption_lines(this.scene(), view, display, present_ev, new Date()), ...clean];
     }
 
     async write_png() {

@@ -36,9 +36,9 @@ function take_piece(result, piece) {
 
 /**
  * A frame's header and pieces; bytes are views into the buffer.
- * @returns {{frame, view_id, width, height, complete, at_rest, final, display, exposure, eye, pieces, depth, luminance}}
+ * @returns {{frame, view_id, width, height, complete, at_rest, final, denoised, display, exposure, eye, pieces, depth, luminance}}
  * depth, luminance: the pieces with those of the pixels, null where there are none; display: number of the settings that its colours are after; complete: the message holds all pieces of the picture; at_rest: the eye stands still; final: nothing will be refined
- * any more. Throws Error for bytes that are no frame.
+ * any more; denoised: its colours are of a picture for the eye. Throws Error for bytes that are no frame.
  */
 export function parse_frame(buffer) {
     const data = new DataView(buffer);
@@ -53,6 +53,7 @@ export function parse_frame(buffer) {
         complete: (flags & 1) !== 0,
         at_rest: (flags & 2) !== 0,
         final: (flags & 4) !== 0,
+        denoised: (flags & 8) !== 0,
         display: data.getUint8(17),
         exposure: data.getFloat32(20, true),
         eye: [24, 32, 40].map((at) => data.getFloat64(at, true)),

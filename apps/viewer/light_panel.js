@@ -9,6 +9,7 @@ export const default_display = () => ({
     mode: "tone",
     exposure: { auto: true, ev: 0 },
     human: false,
+    clean: false,
     scale: { low: 1, high: 10000, log: true },
 });
 
@@ -22,16 +23,22 @@ export class LightPanel {
         this.display = default_display();
         this.settings = { ambient: "rest" };
         this.automatic_ev_ = 0;
+        this.denoised = false; ///< whether the newest frame is
         this.listen_();
         this.show_();
     }
 
     /** Set the controls to the display and settings that the server has; nothing is sent. */
     take(display, settings) {
-        const { mode, exposure, human, scale } = { ...default_display(), ...display };
-        if (display) this.display = structuredClone({ mode, exposure, human, scale });
+        const { mode, exposure, human, clean, scale } = { ...default_display(), ...display };
+        if (display) this.display = structuredClone({ mode, exposure, human, clean, scale });
         if (settings) this.settings = { ...settings };
         this.show_();
+    }
+
+    /** Whether the server can show denoised pictures. */
+    offer_clean(can) {
+        by_id("clean-line").hidden = !can;
     }
 
     /** Note the factor that the newest frame was multiplied by: a fixed exposure starts there. */
@@ -85,6 +92,9 @@ export class LightPanel {
         by_id("human").addEventListener("change", (event) =>
             this.change_({ human: event.target.checked }),
         );
+        by_id("clean").addEventListener("change", (event) =>
+            this.change_({ clean: event.target.checked }),
+        );
         for (const input of [by_id("low"), by_id("high"), ...document.getElementsByName("steps")])
             input.addEventListener("change", () => this.read_scale_());
         for (const input of document.getElementsByName("ambient"))
@@ -111,7 +121,7 @@ export class LightPanel {
     }
 
     show_() {
-        const { mode, exposure, human, scale } = this.display;
+        const { mode, exposure, human, clean, scale } = this.display;
         choose("mode", mode);
         choose("steps", scale.log ? "log" : "linear");
         choose("ambient", this.settings.ambient);
@@ -119,6 +129,7 @@ export class LightPanel {
         by_id("false-controls").hidden = mode !== "false";
         by_id("auto").checked = exposure.auto;
         by_id("human").checked = human;
+        by_id("clean").checked = clean;
         by_id("low").value = scale.low;
         by_id("high").value = scale.high;
         this.show_problem_(null);

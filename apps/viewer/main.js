@@ -260,6 +260,7 @@ function redraw() {
 
 function welcome(message) {
     roles.welcome(message);
+    light.offer_clean(message.denoises === true);
     if (message.max_size) max_size = message.max_size;
     if (scene !== message.scene || !greeted) open_scene(message.scene || "");
     views.set_scene_views(message.views || []);
@@ -409,11 +410,13 @@ function drawn(frame, depth, told) {
         exposure: frame.exposure,
         at_rest: frame.at_rest,
         final: frame.final,
+        denoised: frame.denoised,
     });
     const sent = session.drawn(frame, told);
     if (sent?.walk && sent.epoch === navigator.epoch) navigator.take_height(frame.eye);
     camera.take(session.driving && !sent ? null : session.frame_view, depth);
     light.note_exposure(frame.exposure);
+    light.denoised = frame.denoised;
     if (awaiting_picture && session.connection.connected) {
         awaiting_picture = false;
         counters.ready = true;

@@ -77,6 +77,7 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       edits_(options_.start.edits) {
     wish_.time = options_.start.time;
     wish_.edits = options_.start.edits_asked;
+    if (options_.denoise) clean_view_.emplace(options_.denoise);
 }
 
 void RenderLoop::step(const StopFlag& stop, std::chrono::milliseconds longest) {
@@ -84,6 +85,7 @@ void RenderLoop::step(const StopFlag& stop, std::chrono::milliseconds longest) {
     if (!wish_.view || stop.requested()) return;
     const Clock::time_point begin = Clock::now();
     draw(stop);
+    clean();
     const Clock::time_point now = Clock::now();
     const bool hurries = live_.picture().phase == WalkPhase::moving;
     const bool shows =
@@ -174,6 +176,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     if (timed) set_time();
     if (timed || !inbox.joined.empty()) tell_time();
     if (dims && groups_) dim();
+    clean();
     if (inbox.new_probes) measured_at_ = {};
     if (!view_ || live_.picture().radiance.empty())
         return client_inbox_.refuse(inbox, "there is no picture yet");
@@ -359,14 +362,29 @@ void RenderLoop::note_size(Size size, double budget) {
         moving_size_.record(picture.report, budget);
 }
 
+/// After each picture, and before one of another view takes its time.
+void RenderLoop::clean() {
+    if (!clean_view_) return;
+    const bool rests = drawn_ && !dimmed_ && !is_dimming();
+    if (clean_view_->follow(live_.picture(), wish_.display, rests)) {
+        shown_ = false;
+        shown_at_ = {};
+    }
+    const std::string why = clean_view_->take_problem();
+    if (why.empty()) return;
+    warnings_.warn(why);
+    client_inbox_.tell_all(walk_text(RefusedReply{why, std::nullopt}));
+}
+
 /// Not where nothing is new: neither pixels nor their colours.
 void RenderLoop::show(Clock::time_point now) {
     if (shown_ && now - moved_ > kAdaptationTime && !screen_.is_outdated()) return;
-    const ShownView view{wish_.view->id, view_->position,
-                         live_.picture().phase != WalkPhase::moving,
-                         live_.picture().phase == WalkPhase::done};
+    const ShownView view{
+        wish_.view->id, view_->position, live_.picture().phase != WalkPhase::moving,
+        live_.picture().phase == WalkPhase::done && !(clean_view_ && clean_view_->is_coming())};
     screen_.measure_depth(live_.picture(), *view_, eye_height_);
-    screen_.show(live_.picture(), wish_.display, view, now);
+    screen_.show(live_.picture(), wish_.display, view, now,
+                 clean_view_ ? clean_view_->radiance() : std::span<const Rgb>());
     const ViewReply told{*view_, wish_.view->seen};
     if (told_ != told) client_inbox_.tell_watchers(walk_text(told));
     told_ = told;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "apps/session/scene_session.h"
+#include "apps/walk/clean_view.h"
 #include "apps/walk/client_inbox.h"
 #include "apps/walk/material_edits.h"
 #include "apps/walk/scene_follower.h"
@@ -46,6 +47,8 @@ struct RenderLoopOptions {
     /// Puts another scene in its place, likewise.
     std::function<const SceneSession&(const std::shared_ptr<const CompiledScene>& scene)> replace =
         {};
+    /// Denoises what is shown of a view that rests, where the page wants it. None: nothing does.
+    PictureCleaner::Denoise denoise = {};
 };
 
 /// Draws until it is told to stop. For one thread.
@@ -127,6 +130,7 @@ class RenderLoop {
     void measure_planes(const StopFlag& stop);
     void draw(const StopFlag& stop);
     void note_size(Size size, double budget);
+    void clean();
     void show(Clock::time_point now);
     void note_pace(Clock::time_point begin);
     void report(Clock::time_point now);
@@ -175,8 +179,9 @@ class RenderLoop {
     Clock::time_point moved_, shown_at_, measured_at_, dimmed_at_;
     bool dimmed_ = false;  ///< since a picture was shown
     MovingSize moving_size_;
-    double share_ = 1;          ///< see share_time
-    double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late
+    std::optional<CleanView> clean_view_;  ///< nothing: none is shown
+    double share_ = 1;                     ///< see share_time
+    double aside_seconds_ = 0;             ///< beside the steps of a moving view's frame, of late
     Pace pace_;
 };
 

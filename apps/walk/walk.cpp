@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -18,6 +20,7 @@
 #include "io/files/watched_files.h"
 #include "io/formats/words.h"
 #include "io/net/web_rules.h"
+#include "io/picture/denoiser.h"
 #include "io/rad/rad_file.h"
 
 namespace lightwalk {
@@ -61,9 +64,19 @@ WelcomeReply welcome(const RenderCommand& command) {
     welcome.version = LIGHTWALK_VERSION;
     for (const std::string& file : command.common.scene_files())
         welcome.scene += (welcome.scene.empty() ? "" : " ") + file;
+    welcome.denoises = command.serve->denoise;
     if (command.common.settings.light.ambient_bounces <= 0)
         welcome.settings.ambient = WalkAmbient::off;
     return welcome;
+}
+
+/// Opens the library when it is first needed.
+PictureCleaner::Denoise denoise_function() {
+    return [denoiser = std::make_shared<std::optional<Denoiser>>()](
+               Picture& picture, const std::function<bool()>& goes_on) {
+        if (!*denoiser) denoiser->emplace();
+        return (**denoiser)(picture, goes_on);
+    };
 }
 
 /// The page: its server, which works on a thread of its own while this lives, and what comes from
@@ -128,6 +141,7 @@ class WalkRun final : CommandRun {
     WalkRun(RenderCommand& command, Communicator* communicator, FileSource& files)
         : CommandRun(command.common, communicator), command_(command) {
         check(files);
+        if (speaks() && command_.serve->denoise) (void)Denoiser();  // before the page is served
     }
 
     int run() {
@@ -253,6 +267,7 @@ class WalkRun final : CommandRun {
         ComparisonOptions options;
         options.loop = {command_.serve->page.fps, command_.serve->edge_samples,
                         command_.common.request.history};
+        if (command_.serve->denoise) options.loop.denoise = denoise_function();
         options.request = task();
         options.home = home;
         options.scene = command_.serve->beside;
@@ -287,6 +302,7 @@ class WalkRun final : CommandRun {
                                   command_.common.request.history,
                                   ranks() != nullptr ? ranks()->size() : 1};
         options.change = scene_changer(renderer.backend());
+        if (command_.serve->denoise) options.denoise = denoise_function();
         if (ranks() == nullptr) options.replace = scene_replacer(renderer.backend());
         RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
                         *page.executor, warnings(), page.inbox, page.screen);

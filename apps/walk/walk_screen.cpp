@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <functional>
 #include <limits>
 #include <string_view>
@@ -93,18 +94,21 @@ void WalkScreen::adapt(const LivePicture& picture, Time now) {
 }
 
 void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
-                      const ShownView& view, Time now) {
+                      const ShownView& view, Time now, std::span<const Rgb> clean) {
+    assert(clean.empty() || clean.size() == picture.radiance.size());
     if (picture.width != width_ || picture.height != height_) cut(picture.width, picture.height);
     adapt(picture, now);
     const Display display(request.settings, eye_, *brightness_);
     exposure_ = static_cast<float>(display.exposure());
     display_ = request.number;
     view_ = view;
+    view_.denoised = !clean.empty() && difference_ == nullptr;
+    const std::span<const Rgb> radiance = clean.empty() ? std::span(picture.radiance) : clean;
     contents_[depth_index()] = depth_.content();
     const bool measured = how_many(&Client::wants_luminance) > 0;
     const int quality = view.at_rest ? kProgressiveQuality : moving_quality();
     executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
-        colour(pieces_[i], picture, display, quality);
+        colour(pieces_[i], picture, radiance, display, quality);
         contents_[i] = pieces_[i].content;
         if (measured) luminance_.measure(picture.radiance, pieces_[i].area);
     });
@@ -154,8 +158,8 @@ void WalkScreen::show_difference(const LivePicture& base, const LivePicture& pic
 }
 
 /// A piece that shows the same as before need not be compressed, nor sent, again.
-void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display& display,
-                        int quality) {
+void WalkScreen::colour(Piece& piece, const LivePicture& picture, std::span<const Rgb> radiance,
+                        const Display& display, int quality) {
     const PixelRectangle& area = piece.area;
     const auto width = static_cast<std::size_t>(area.width());
     std::size_t content = static_cast<std::size_t>(quality);
@@ -166,7 +170,7 @@ void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display&
         if (difference_ != nullptr)
             show_difference(*difference_, picture, area, y, row);
         else
-            display.show(std::span(picture.radiance).subspan(first, width), row);
+            display.show(radiance.subspan(first, width), row);
         const std::string_view text(reinterpret_cast<const char*>(row.data()), row.size());
         content = content * 0x9E3779B97F4A7C15U + std::hash<std::string_view>{}(text);
     }
@@ -210,6 +214,7 @@ std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::siz
     header.whole = whole;
     header.at_rest = view_.at_rest;
     header.finished = view_.finished;
+    header.denoised = view_.denoised;
     header.display = display_;
     header.exposure = exposure_;
     header.eye = view_.eye;

@@ -26,6 +26,7 @@ struct ShownView {
     Vec3 eye;              ///< [m]
     bool at_rest = false;
     bool finished = false;  ///< as good as it gets
+    bool denoised = false;  ///< its colours are those of a picture for the eye
     friend bool operator==(const ShownView&, const ShownView&) = default;
 };
 
@@ -64,8 +65,11 @@ class WalkScreen {
     /// @param eye_height  see DepthPiece
     void measure_depth(const LivePicture& picture, const View& view, double eye_height);
     /// The newest picture, in its colours.
+    /// @param clean  radiance whose colours are shown in place of the picture's, as many pixels;
+    ///               empty: none. How bright it is, its luminance and its difference from another
+    ///               one stay those of the picture
     void show(const LivePicture& picture, const DisplayRequest& request, const ShownView& view,
-              Time now);
+              Time now, std::span<const Rgb> clean = {});
     /// Compress what clients lack, and send it to all that are ready for a frame.
     void send(ClientInbox& client_inbox, Time now);
     /// When a client may be ready that is not now; Time::max(): only when it says so.
@@ -88,7 +92,8 @@ class WalkScreen {
     void cut(int width, int height);
     [[nodiscard]] std::size_t how_many(bool Client::*want) const;
     void adapt(const LivePicture& picture, Time now);
-    void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
+    void colour(Piece& piece, const LivePicture& picture, std::span<const Rgb> radiance,
+                const Display& display, int quality);
     [[nodiscard]] int moving_quality() const;
     static void show_difference(const LivePicture& base, const LivePicture& picture,
                                 const PixelRectangle& area, int y, std::span<std::uint8_t> row);

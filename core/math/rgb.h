@@ -49,6 +49,10 @@ struct Rgb {
 [[nodiscard]] constexpr float min_component(const Rgb& c) {
     return std::min(c.r, std::min(c.g, c.b));
 }
+/// Zero in place of what is below it.
+[[nodiscard]] constexpr Rgb positive_part(const Rgb& c) {
+    return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)};
+}
 [[nodiscard]] constexpr float mean(const Rgb& c) {
     return (c.r + c.g + c.b) * (1.0f / 3.0f);
 }

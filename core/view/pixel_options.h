@@ -3,10 +3,17 @@
 
 namespace lightwalk {
 
+/// How a pixel weighs the samples that it shares with its neighbours, see pixel_filter().
+enum class PixelFilter {
+    gaussian,  ///< of .6 pixels: no negative weights
+    mitchell,  ///< sharper, with negative ones
+};
+
 /// Options of the sampling of pixels, with names and defaults of rpict.
 struct PixelOptions {
     int samples = 1;  ///< --samples: rays a pixel; what more than 1 count is the pixel's filter's
     bool share_samples = true;  ///< where pixels have several of them, with their neighbours
+    PixelFilter filter = PixelFilter::gaussian;  ///< of these; pixels' own have the Gaussian
     int spacing = 4;  ///< -ps: distance of the pixels that are traced in any case, 1 ... 16
     double threshold =
         0.05;              ///< -pt: relative difference beyond which pixels in between are traced

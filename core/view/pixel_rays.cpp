@@ -39,7 +39,8 @@ PixelOffset PixelRays::filter_offset(int x, int y, int sample, RandomStream& ran
 }
 
 PixelRays::Place PixelRays::shared_place(int x, int y, int sample) const {
-    const auto beside = [](int at) { return static_cast<std::uint32_t>(at + 1); };
+    const int around = reached_pixels(options_.filter);
+    const auto beside = [around](int at) { return static_cast<std::uint32_t>(at + around); };
     Place place{
         0, 0,
         RandomStream::of_samples(seed_, beside(x), beside(y), static_cast<std::uint32_t>(sample),

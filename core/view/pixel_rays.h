@@ -39,7 +39,7 @@ class PixelRays {
     /// With several samples a pixel their places are those of their use instead, and jitter is not
     /// used. Lens and motion as with one sample. Where pixels share samples these are stratified
     /// together over the whole picture, with all that is drawn for them (RandomStream::of_samples),
-    /// and those of pixels beside the picture are asked for, too, by one pixel on each side.
+    /// and those of pixels beside the picture are asked for, too, as far as their filter reaches.
     /// @param sample  0 ... samples - 1; of pixels' own samples 0 is nearest to the pixel's centre
     [[nodiscard]] PixelRay operator()(int x, int y, int sample = 0) const;
 

@@ -22,11 +22,24 @@ int grid_columns(int count) {
     return 1;
 }
 
+double gaussian(double d) {
+    const double x = d * (1 / kPixelFilterRadius);
+    return elementary::exp(-x * x);
+}
+
+/// k(x) / 6 for B = C = 1/3.
+double mitchell(double d) {
+    const double x = std::abs(d);
+    if (x < 1) return ((7 * x - 12) * x * x + 16.0 / 3) / 6;
+    return (((-7.0 / 3 * x + 12) * x - 20) * x + 32.0 / 3) / 6;
+}
+
 }  // namespace
 
-double pixel_filter(double d) {
-    const double x = d * (1 / kPixelFilterRadius);
-    return d > -kPixelFilterReach && d < kPixelFilterReach ? elementary::exp(-x * x) : 0;
+double pixel_filter(PixelFilter filter, double d) {
+    const double reach = pixel_filter_reach(filter);
+    if (!(d > -reach && d < reach)) return 0;
+    return filter == PixelFilter::mitchell ? mitchell(d) : gaussian(d);
 }
 
 PixelOffset shared_sample(int sample, int count, const SequencePoint& at) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/math/sequence_2d.h"
+#include "core/view/pixel_options.h"
 
 namespace lightwalk {
 
@@ -17,12 +18,27 @@ struct PixelOffset {
 inline constexpr double kPixelFilterRadius = 0.6;
 
 /// How far along either axis from a pixel's centre a sample counts where pixels share samples
-/// [pixels]: pfilt -r .6 ends its Gaussian there. What lies beyond is .4 % of the weight.
-inline constexpr double kPixelFilterReach = 1.3;
+/// [pixels]. pfilt -r .6 ends its Gaussian at 1.3: what lies beyond is .4 % of the weight.
+[[nodiscard]] constexpr double pixel_filter_reach(PixelFilter filter) {
+    return filter == PixelFilter::mitchell ? 2 : 1.3;
+}
+/// How many pixels away along either axis those are, at most, that a pixel's samples count for.
+[[nodiscard]] constexpr int reached_pixels(PixelFilter filter) {
+    return filter == PixelFilter::mitchell ? 2 : 1;
+}
 
-/// The filter's weight along one axis, at distance `d` from the pixel's centre [pixels]: exp(-(d /
-/// 0.6)²), and 0 beyond its reach. That of a place is the product of both axes'.
-[[nodiscard]] double pixel_filter(double d);
+/// Whether a place may count less than nothing for a pixel.
+[[nodiscard]] constexpr bool has_negative_weights(PixelFilter filter) {
+    return filter == PixelFilter::mitchell;
+}
+
+/// The filter's weight along one axis, at distance `d` from the pixel's centre [pixels]; 0 beyond
+/// its reach. That of a place is the product of both axes'. The Gaussian's is exp(-(d / 0.6)²).
+/// Mitchell's is the cubic of B = C = 1/3, of integral 1: it keeps edges sharper, and is negative
+/// from 8/7 on, by .036 at most, so that what is next to a bright edge is a little too dark and a
+/// small bright thing has a dark ring. Source: Mitchell & Netravali, "Reconstruction filters in
+/// computer graphics", Computer Graphics 22(4) (SIGGRAPH 1988), equation 8.
+[[nodiscard]] double pixel_filter(PixelFilter filter, double d);
 
 /// Where in its pixel a sample lies that neighbouring pixels share: samples are uniform over the
 /// picture, each pixel has `count`, from -0.5 to 0.5 along either axis. `at` of all samples being a

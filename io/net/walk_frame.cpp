@@ -20,7 +20,9 @@ void append_header(std::string& out, const WalkFrameHeader& header, std::size_t 
     append(out, header.view, 4);
     append(out, header.width, 2);
     append(out, header.height, 2);
-    append(out, (header.whole ? 1u : 0u) | (header.at_rest ? 2u : 0u) | (header.finished ? 4u : 0u),
+    append(out,
+           (header.whole ? 1u : 0u) | (header.at_rest ? 2u : 0u) | (header.finished ? 4u : 0u) |
+               (header.denoised ? 8u : 0u),
            1);
     append(out, header.display, 1);
     append(out, pieces, 2);

@@ -16,6 +16,7 @@ struct WalkFrameHeader {
     bool whole = false;        ///< the message has all pieces of the picture
     bool at_rest = false;      ///< the eye stands still
     bool finished = false;     ///< the picture will not be refined any more
+    bool denoised = false;     ///< its colours are of a picture for the eye, not of what was traced
     std::uint8_t display = 0;  ///< number of the settings that its colours are after
     float exposure = 1;        ///< factor that radiance was multiplied by
     Vec3 eye;                  ///< position of the eye [m]

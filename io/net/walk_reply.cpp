@@ -43,12 +43,14 @@ Json to_json(const std::vector<NamedView>& views) {
 
 Json to_json(const DisplayRequest& request) {
     const DisplaySettings& display = request.settings;
-    return {
+    Json json{
         {"number", request.number},
         {"mode", display.false_colour ? "false" : "tone"},
         {"exposure", {{"auto", display.automatic}, {"ev", display.ev}}},
         {"human", display.human},
         {"scale", {{"low", display.low}, {"high", display.high}, {"log", display.logarithmic}}}};
+    if (request.clean) json["clean"] = true;
+    return json;
 }
 
 Json to_json(const SkyTime& time) {
@@ -114,17 +116,19 @@ std::string base64(std::string_view bytes) {
 }  // namespace
 
 std::string walk_text(const WelcomeReply& reply) {
-    return text_of({{"type", "welcome"},
-                    {"version", reply.version},
-                    {"you", reply.you},
-                    {"driver", reply.driver},
-                    {"scene", reply.scene},
-                    {"max_size", Json::array({reply.max_size.width, reply.max_size.height})},
-                    {"fps", reply.fps},
-                    {"views", to_json(reply.views)},
-                    {"view", reply.view ? to_json(*reply.view) : Json()},
-                    {"display", to_json(reply.display)},
-                    {"settings", {{"ambient", word(reply.settings.ambient)}}}});
+    Json json{{"type", "welcome"},
+              {"version", reply.version},
+              {"you", reply.you},
+              {"driver", reply.driver},
+              {"scene", reply.scene},
+              {"max_size", Json::array({reply.max_size.width, reply.max_size.height})},
+              {"fps", reply.fps},
+              {"views", to_json(reply.views)},
+              {"view", reply.view ? to_json(*reply.view) : Json()},
+              {"display", to_json(reply.display)},
+              {"settings", {{"ambient", word(reply.settings.ambient)}}}};
+    if (reply.denoises) json["denoises"] = true;
+    return text_of(json);
 }
 
 std::string walk_text(const LoadingReply& reply) {

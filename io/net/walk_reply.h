@@ -30,6 +30,7 @@ struct WelcomeReply {
     std::optional<View> view;  ///< where this client was last, if it was here before
     DisplayRequest display;
     SettingsRequest settings;
+    bool denoises = false;  ///< whether it can show denoised pictures
 };
 /// `loading`: the scene is being read.
 struct LoadingReply {

@@ -178,6 +178,7 @@ DisplayRequest read_display(const Json& object) {
         refuse("low", "more than 0 on a logarithmic scale");
     if (object.contains("number"))
         request.number = static_cast<std::uint8_t>(number(object, 0, 255, "number"));
+    if (object.contains("clean")) request.clean = truth(object, "clean");
     return request;
 }
 

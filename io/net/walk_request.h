@@ -46,6 +46,7 @@ struct AckRequest {
 struct DisplayRequest {
     DisplaySettings settings;
     std::uint8_t number = 0;  ///< that frames repeat which have these colours
+    bool clean = false;       ///< at rest, of a denoised picture where the server can make one
     friend bool operator==(const DisplayRequest&, const DisplayRequest&) = default;
 };
 /// `settings`: when indirect light is calculated.

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -42,6 +43,9 @@ struct Denoiser::Library {
         find(release_filter, "oidnReleaseFilter");
         set_flag = reinterpret_cast<SetFlag>(dlsym(library, "oidnSetFilterBool"));
         if (set_flag == nullptr) find(set_flag, "oidnSetFilter1b");  // of version 1
+        // Of version 1 on; without it what was begun goes on to its end.
+        set_monitor =
+            reinterpret_cast<SetMonitor>(dlsym(library, "oidnSetFilterProgressMonitorFunction"));
         device = new_device(kCpu);
         if (device == nullptr) throw InputError(std::string(kMissing) + "it finds no device");
         commit_device(device);
@@ -66,19 +70,41 @@ struct Denoiser::Library {
                              (why != nullptr ? why : "failed"));
     }
 
-    void filter(const Rgb* noisy, Rgb* clean, std::size_t width, std::size_t height) const {
+    /// False: `goes_on` has said so.
+    [[nodiscard]] bool filter(const Rgb* noisy, Rgb* clean, std::size_t width, std::size_t height,
+                              const std::function<bool()>& goes_on) const {
+        struct Watch {
+            const std::function<bool()>& goes_on;
+            std::atomic<bool> given_up = false;
+        } watch{goes_on};
+        const auto monitor = [](void* user, double /*done*/) {
+            auto& watched = *static_cast<Watch*>(user);
+            if (!watched.goes_on()) watched.given_up = true;
+            return !watched.given_up;
+        };
         void* made = new_filter(device, "RT");
-        if (made == nullptr) return check();
+        if (made == nullptr) {
+            check();
+            throw InputError("Open Image Denoise: it makes no filter");
+        }
         set_image(made, "color", const_cast<Rgb*>(noisy), kFloat3, width, height, 0, 0, 0);
         set_image(made, "output", clean, kFloat3, width, height, 0, 0, 0);
         set_flag(made, "hdr", true);
+        if (goes_on && set_monitor != nullptr) set_monitor(made, monitor, &watch);
         commit_filter(made);
         execute(made);
         release_filter(made);
-        check();
+        // To give up is an error to the library, too, which it would tell next time.
+        const char* told = nullptr;
+        if (watch.given_up)
+            (void)device_error(device, &told);
+        else
+            check();
+        return !watch.given_up;
     }
 
     using SetFlag = void (*)(void* filter, const char* name, bool value);
+    using SetMonitor = void (*)(void* filter, bool (*monitor)(void* user, double done), void* user);
     void* library;
     void* device = nullptr;
     void* (*new_device)(int type) = nullptr;
@@ -90,6 +116,7 @@ struct Denoiser::Library {
                       std::size_t height, std::size_t offset, std::size_t pixel_stride,
                       std::size_t row_stride) = nullptr;
     SetFlag set_flag = nullptr;
+    SetMonitor set_monitor = nullptr;
     void (*commit_filter)(void* filter) = nullptr;
     void (*execute)(void* filter) = nullptr;
     void (*release_filter)(void* filter) = nullptr;
@@ -101,11 +128,18 @@ Denoiser::Denoiser(Denoiser&&) noexcept = default;
 Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
 
 void Denoiser::operator()(Picture& picture) {
-    if (picture.pixels.empty()) return;
+    (void)(*this)(picture, nullptr);
+}
+
+bool Denoiser::operator()(Picture& picture, const std::function<bool()>& goes_on) {
+    if (picture.pixels.empty()) return true;
     std::vector<Rgb> clean(picture.pixels.size());
-    library_->filter(picture.pixels.data(), clean.data(), static_cast<std::size_t>(picture.width),
-                     static_cast<std::size_t>(picture.height));
+    if (!library_->filter(picture.pixels.data(), clean.data(),
+                          static_cast<std::size_t>(picture.width),
+                          static_cast<std::size_t>(picture.height), goes_on))
+        return false;
     picture.pixels = std::move(clean);
+    return true;
 }
 
 Denoiser::Errors Denoiser::errors(const Picture& picture, std::span<const Rgb> half,

@@ -1,5 +1,6 @@
 #pragma once
 // Removes the noise of pictures that are looked at.
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -25,6 +26,9 @@ class Denoiser {
     /// Replace the picture's radiance. The result may depend on the processor and the library's
     /// version. Throws InputError with the library's reason.
     void operator()(Picture& picture);
+    /// The same, but given up as soon as `goes_on` says so: it is asked now and then, by whichever
+    /// thread. False: given up, and the picture is as it was.
+    [[nodiscard]] bool operator()(Picture& picture, const std::function<bool()>& goes_on);
 
     /// Errors of what the screen shows, as shares of its white: roots of mean squares over all
     /// channels.

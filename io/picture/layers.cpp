@@ -233,19 +233,21 @@ LayersHeader read_radiance_header(std::string_view bytes, const std::string& pat
 }
 
 std::string encode_layers(const Picture& whole, std::span<const PictureLayer> layers,
-                          const PictureHeader& header) {
+                          std::span<const float> error, const PictureHeader& header) {
     std::vector<std::string> channels{"R", "G", "B"};
     std::vector<std::span<const Rgb>> pixels{whole.pixels};
     for (const PictureLayer& layer : layers) {
         for (const char* color : kColors) channels.push_back(layer.name + '.' + color);
         pixels.push_back(layer.pixels);
     }
+    if (!error.empty()) channels.emplace_back("error");
     const auto width = static_cast<std::size_t>(whole.width);
     const auto row = [&](int y, float* to) {
         const std::size_t first = static_cast<std::size_t>(y) * width;
         for (std::size_t i = first; i < first + width; ++i) {
             for (const std::span<const Rgb> layer : pixels)
                 for (std::size_t k = 0; k < 3; ++k) *to++ = layer[i][k];
+            if (!error.empty()) *to++ = error[i];
         }
     };
     return encode_exr(whole.width, whole.height, channels, row, header);
@@ -277,10 +279,12 @@ void check_layers_name(const std::string& pattern) {
 }
 
 void write_layers(const std::string& pattern, const Picture& whole,
-                  std::span<const PictureLayer> layers, const PictureHeader& header,
+                  std::span<const PictureLayer> layers, std::span<const float> error,
+                  const PictureHeader& header,
                   const std::function<std::string(const std::string&)>& file) {
+    assert(error.empty() || error.size() == whole.pixels.size());
     if (!has_layer_place(pattern))
-        return write_file_atomically(file(pattern), encode_layers(whole, layers, header));
+        return write_file_atomically(file(pattern), encode_layers(whole, layers, error, header));
     for (const PictureLayer& layer : layers) {
         PictureHeader own = header;
         own.lines.push_back(std::string(kLayerVariable) + "= " + layer.name);

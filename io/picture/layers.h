@@ -28,11 +28,14 @@ struct PictureLayer {
 void check_layers_name(const std::string& pattern);
 
 /// Write a picture a layer, where the name has a %s: their headers say LIGHT_GROUP= and the name.
-/// Else one OpenEXR file: `whole` as channels R G B, and the layers as NAME.R NAME.G NAME.B.
+/// Else one OpenEXR file: `whole` as channels R G B, the layers as NAME.R NAME.G NAME.B, and the
+/// whole picture's error, where it is known, as "error".
 /// Each file appears whole or not at all. Throws InputError, UsageError.
-/// @param file  the name that a layer's file gets of `pattern` with the layer's name in it
+/// @param error  of each pixel, as many as there are; empty: not known
+/// @param file   the name that a layer's file gets of `pattern` with the layer's name in it
 void write_layers(const std::string& pattern, const Picture& whole,
-                  std::span<const PictureLayer> layers, const PictureHeader& header,
+                  std::span<const PictureLayer> layers, std::span<const float> error,
+                  const PictureHeader& header,
                   const std::function<std::string(const std::string&)>& file);
 
 /// What the head of a file of layers says.

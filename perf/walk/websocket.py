@@ -92,5 +92,5 @@ class Frame:
         if magic != b"LWF1":
             raise ValueError("no frame")
         self.eye = struct.unpack_from("<ddd", message, 24)
-        self.whole, self.at_rest, self.finished = bool(flags & 1), bool(flags & 2), bool(flags & 4)
+        self.whole, self.at_rest, self.finished, self.denoised = (bool(flags & bit) for bit in (1, 2, 4, 8))
         self.bytes = len(message)

@@ -95,5 +95,11 @@ TEST_CASE(
     CHECK(missing.status == 1);
     CHECK(missing.err.find("option --denoise: Open Image Denoise is not installed: ") !=
           std::string::npos);
+    const ProgramResult walk = run_program({"walk", "--denoise", "--port", "0", scene}, "",
+                                           {"/usr/bin/env", "-u", "LD_LIBRARY_PATH"});
+    CHECK(walk.status == 1);  // before there is a page
+    CHECK(walk.out.empty());
+    CHECK(walk.err.find("option --denoise: Open Image Denoise is not installed: ") !=
+          std::string::npos);
     CHECK(folder.files() == std::vector<std::string>{"wall.rad"});
 }

@@ -73,6 +73,10 @@ TEST_CASE("render: --error makes the same bytes whoever traces them") {
     CHECK(pixels({"--error", ".05", "--samples", "4"}) == one);
     CHECK(pixels({"--error", ".05", "--samples", "8"}) != one);
     CHECK(pixels({"--error", ".05", "--seed", "7"}) != one);
+    const std::string sharp = pixels({"--error", ".05", "--pixel-filter", "mitchell"});
+    CHECK(sharp != one);
+    CHECK(pixels({"--error", ".05", "--pixel-filter", "mitchell", "-n", "3", "--block", "16"}) ==
+          sharp);
     CHECK(pixels({"--error", ".05", "-ab", "1", "--deterministic"}) ==
           pixels({"--error", ".05", "-ab", "1", "--deterministic", "-n", "2"}));
 }
@@ -93,6 +97,58 @@ TEST_CASE("render: an .exr of --error holds each pixel's error, and the picture 
     for (std::size_t i = 0; i < sum.pixels.size(); ++i)
         REQUIRE(std::abs(sum.pixels[i].g - other.pixels[i].g) <=
                 max_component(other.pixels[i]) / 128);
+}
+
+TEST_CASE("render: an .exr of layers holds the whole picture's error as well") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kBars), file = folder.path("a.exr");
+    const auto exr = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--light-group", "lamp=lamp", "-o", file});
+        REQUIRE(run_program(render_words(std::move(words), scene)).status == 0);
+        return read_whole(file);
+    };
+    const std::string bytes = exr({"--error", ".1"});
+    const auto channel = [](const std::string& of) { return of.find(std::string("error\0", 6)); };
+    CHECK(channel(bytes) < 400);  // in the head
+    CHECK(channel(exr({"--samples", "4"})) == std::string::npos);
+    const LayersHeader header = read_layers_header(bytes, file);
+    CHECK(std::ranges::find(header.names, "error") == header.names.end());  // no layer of light
+    CHECK(std::ranges::find(header.names, "lamp") != header.names.end());
+    const auto sum = [&](const std::string& made, std::size_t layers) {
+        Picture picture{48, 32, std::vector<Rgb>(48 * 32)};
+        add_layers(made, file, std::vector<Rgb>(layers, {1, 1, 1}), picture);
+        return picture.pixels;
+    };
+    REQUIRE(run_program(render_words({"--error", ".1", "-o", file}, scene)).status == 0);
+    const std::vector<Rgb> whole = sum(read_whole(file), 1);
+    const std::vector<Rgb> layers = sum(bytes, header.names.size());
+    for (std::size_t i = 0; i < whole.size(); ++i)  // the same samples
+        REQUIRE(layers[i].g == doctest::Approx(whole[i].g).epsilon(1e-4));
+}
+
+TEST_CASE("render: --pixel-filter goes with --error, and nothing is negative") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("lamps.rad",
+                                           "void light lamp 0 0 3 200 200 200\n"
+                                           "lamp sphere s 0 0 4 0 0 1.5 .3\n");
+    const auto picture = [&](std::vector<std::string> words, const std::string& file) {
+        words.insert(words.end(), {"--pixel-filter", "mitchell", "-o", folder.path(file)});
+        REQUIRE(run_program(render_words(std::move(words), scene)).status == 0);
+        const std::string bytes = read_whole(folder.path(file));
+        Picture sum{48, 32, std::vector<Rgb>(48 * 32)};
+        add_layers(bytes, file, std::vector<Rgb>{{1, 1, 1}}, sum);
+        return sum;
+    };
+    for (const Picture& made :
+         {picture({"--error", ".1"}, "a.exr"), picture({"--samples", "8"}, "b.exr")}) {
+        float least = 1, most = 0;
+        for (const Rgb& pixel : made.pixels) {
+            least = std::min(least, min_component(pixel));
+            most = std::max(most, max_component(pixel));
+        }
+        CHECK(least == 0);
+        CHECK(most > 202);  // brighter than the lamp beside its edge: it is Mitchell's
+    }
 }
 
 TEST_CASE("render: --time is a limit beside --error, and the picture is whole") {
@@ -118,7 +174,11 @@ TEST_CASE("render: what does not go with --error and --time is told before any w
         {{"--error", "2"}, "option --error: expected"},
         {{"--error", "nan"}, "option --error: expected"},
         {{"--time", "soon"}, "option --time: expected"},
-        {{"--error", ".1", "--checkpoint", folder.path("c")}, "option --checkpoint: "}};
+        {{"--error", ".1", "--checkpoint", folder.path("c")}, "option --checkpoint: "},
+        {{"--error", ".1", "--pixel-filter", "box"}, "option --pixel-filter: expected"},
+        {{"--pixel-filter", "mitchell"}, "option --pixel-filter: there is nothing to filter"},
+        {{"--samples", "4", "--pixel-filter", "mitchell", "--denoise", "-o", folder.path("a.png")},
+         "option --pixel-filter: pixels that are denoised"}};
     for (const auto& [words, message] : cases) {
         CAPTURE(message);
         const ProgramResult result = run_program(render_words(words, scene));
@@ -132,6 +192,13 @@ TEST_CASE("render: what does not go with --error and --time is told before any w
     const ProgramResult refused = run_program(walk);
     CHECK(refused.status == 2);
     CHECK(refused.err.find("say --reuse off") != std::string::npos);
+    walk = render_words(
+        {"--samples", "2", "--pixel-filter", "mitchell", "-o", folder.path("f%d.hdr")}, scene);
+    walk.front() = "animate";
+    walk.insert(walk.end() - 1, {"--rotate", "2"});
+    const ProgramResult blurred = run_program(walk);
+    CHECK(blurred.status == 2);
+    CHECK(blurred.err.find("say --reuse off") != std::string::npos);
     CHECK(folder.files() == std::vector<std::string>{"room.rad"});
 }
 

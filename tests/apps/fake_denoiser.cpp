@@ -11,6 +11,8 @@ struct Fake {
     float* output = nullptr;
     std::size_t pixels = 0;
     bool hdr = false, failed = false;
+    bool (*monitor)(void* user, double done) = nullptr;
+    void* user = nullptr;
 };
 
 Fake fake;
@@ -41,9 +43,15 @@ void oidnSetSharedFilterImage(void*, const char* name, void* pixels, int format,
 void oidnSetFilter1b(void*, const char* name, bool value) {  // that of version 1
     if (std::strcmp(name, "hdr") == 0) fake.hdr = value;
 }
+void oidnSetFilterProgressMonitorFunction(void*, bool (*monitor)(void* user, double done),
+                                          void* user) {
+    fake.monitor = monitor;
+    fake.user = user;
+}
 void oidnCommitFilter(void*) {}
 void oidnExecuteFilter(void*) {
     fake.failed = !fake.hdr || std::getenv("FAKE_DENOISER") != nullptr;
+    if (fake.monitor != nullptr && !fake.monitor(fake.user, 0.5)) fake.failed = true;  // cancelled
     for (std::size_t k = 0; !fake.failed && k < 3; ++k) {
         double sum = 0;
         for (std::size_t i = 0; i < fake.pixels; ++i)
@@ -52,6 +60,8 @@ void oidnExecuteFilter(void*) {
             fake.output[3 * i + k] = static_cast<float>(sum / static_cast<double>(fake.pixels));
     }
 }
-void oidnReleaseFilter(void*) {}
+void oidnReleaseFilter(void*) {
+    fake.monitor = nullptr;
+}
 
 }  // extern "C"

@@ -110,6 +110,7 @@ TEST_CASE("render on ranks: the bytes of one process, for every split") {
         {"-ps", "1", "-dj", ".5", "-z", folder.path("one.z")},
         {"-ps", "4", "-pt", ".05"},
         {"--samples", "3", "-dj", ".5"},
+        {"--samples", "2", "--pixel-filter", "mitchell", "-dj", ".5"},
         {"--error", ".1", "-dj", ".5"}};
     for (std::size_t i = 0; i < all_options.size(); ++i) {
         const std::vector<std::string>& options = all_options[i];

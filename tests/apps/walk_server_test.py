@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|dimmed|changed|roles|mended|followed|rad_file|returning|slow|abuse|beside|ranks ...]
+    walk_server_test.py PROGRAM [rest|clean|light|dimmed|changed|roles|mended|followed|rad_file|returning|slow|abuse|beside|ranks ...]
 """
 import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -127,6 +127,34 @@ def rest(program, words=(), launcher=()):
             body = [picture.split(b"\n\n", 1)[1] for picture in (saved, rendered)]
             assert body[0] == body[1], "the pictures differ"
             assert b"VIEW= -vtv" in saved.split(b"\n\n")[0]
+
+
+def clean(program):
+    """Where Open Image Denoise is, a view that rests may be shown without noise. What is saved stays as traced; a library that fails is told once."""
+    library = os.environ.get("LIGHTWALK_FAKE_DENOISER")
+    if not library:
+        print("skipped: LIGHTWALK_FAKE_DENOISER names no folder of a library")
+        sys.exit(77)
+    display = {"type": "display", "mode": "tone", "exposure": {"auto": True, "ev": 0}, "human": False, "clean": True,
+               "scale": {"low": 1, "high": 10000, "log": True}}
+    for more in ([], ["FAKE_DENOISER=fail"]):
+        with Server(program, ["--denoise"], launcher=["/usr/bin/env", f"LD_LIBRARY_PATH={library}", *more]) as server:
+            client = Client(server.port)
+            assert client.told("welcome")["denoises"]
+            client.enter()
+            done = lambda m: isinstance(m, Frame) and m.finished  # noqa: E731
+            assert not client.until(done).denoised
+            body = lambda: server.get("/save/picture.hdr").split(b"\n\n", 1)[1]  # noqa: E731
+            traced = body()
+            client.socket.send(display)
+            if more:
+                assert "no memory" in client.told("refused")["text"]
+            assert client.until(lambda m: done(m) and m.denoised != bool(more))
+            assert body() == traced
+            client.look(direction=[0.1, 1, 0])
+            assert not client.frame(client.ident).denoised
+            client.until(lambda m: done(m) and m.denoised != bool(more))
+            assert sum("no memory" in m.get("text", "") for m in client.messages) == len(more)
 
 
 def light(program):
@@ -506,7 +534,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
+CASES = {case.__name__: case for case in (rest, clean, light, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

@@ -1,10 +1,13 @@
 // Several samples a pixel (--samples): laws of the filtered picture.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "parallel/frame.h"
 #include "tests/one_thread.h"
@@ -70,6 +73,14 @@ Frame render_samples(const Tracer& tracer, const View& view, const FrameOptions&
     return render_samples(tracer, Camera(view), options, *make_executor(ExecutorKind::serial, 1));
 }
 
+TileMask all_tiles(const FrameOptions& options) {
+    TileMask tiles(options.width, options.height);
+    for (std::size_t tile = 0; tile < tiles.size(); ++tile) tiles.set(tile);
+    return tiles;
+}
+
+constexpr int kEdgeSize = 16;  // of edge_response() [pixels]
+
 double green(const Frame& frame, std::size_t i) {
     return static_cast<double>(frame.radiance[i].g);
 }
@@ -85,9 +96,11 @@ double total(const Frame& frame) {
 TEST_CASE("with several samples the picture does not depend on executor, threads or blocks") {
     const TestScene scene(kSampledRoom, noisy_samples());
     const Camera camera(room_view());
-    for (const int spacing : {1, 4}) {
+    for (const auto& [spacing, filter] : std::vector<std::pair<int, PixelFilter>>{
+             {1, PixelFilter::gaussian}, {1, PixelFilter::mitchell}, {4, PixelFilter::gaussian}}) {
         FrameOptions options = sample_options(61, 47, 5);
         options.pixels.spacing = spacing;
+        options.pixels.filter = filter;
         const Frame expected =
             render_samples(scene.tracer, camera, options, *make_executor(ExecutorKind::serial, 1));
         for (const int workers : {1, 2, 7}) {
@@ -106,12 +119,16 @@ TEST_CASE("samples keep the light: a square's pixels add up to its area" * one_t
     constexpr int kSize = 24;
     const double pixel = 1.6 / kSize;
     const double area = 1 / (pixel * pixel);
-    for (const int samples : {1, 8}) {
+    for (const auto& [samples, filter] : std::vector<std::pair<int, PixelFilter>>{
+             {1, PixelFilter::gaussian}, {8, PixelFilter::gaussian}, {8, PixelFilter::mitchell}}) {
         CAPTURE(samples);
         double sum = 0;
         constexpr int kSeeds = 60;
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
             FrameOptions options = sample_options(kSize, kSize, samples, seed);
+            options.pixels.filter = filter;
+            const TileMask tiles = all_tiles(options);  // or what is below zero would be cut off
+            if (samples > 1) options.tiles = &tiles;
             options.pixels.jitter = 1;  // with one sample: anywhere in its pixel
             sum += total(render_samples(scene.tracer, parallel_view(1.6), options));
         }
@@ -123,25 +140,66 @@ TEST_CASE("samples keep the light: a square's pixels add up to its area" * one_t
     }
 }
 
-TEST_CASE("a straight edge gets what the Gaussian of .6 pixels sees of it") {
+/// Rows of pixels that are alike, .3 pixels beside a straight edge; by distance to it [pixels].
+std::vector<double> edge_response(PixelFilter filter, int samples, bool cut_off) {
     const TestScene scene(kSquare);
-    constexpr int kSize = 16;
-    constexpr int kSamples = 64;
-    const double width = 0.8;  // [m]; the edge at .5 m lies in the right half, rows all alike
+    const double width = 0.8;  // [m]; the edge at .5 m lies in the right half
     View view = parallel_view(width);
-    view.position = {0.5 - 0.3 * width / kSize, 0, 0};  // 0.3 pixels left of it
-    view.vertical = 0.4;                                // nowhere near the upper and lower edges
-    const Frame frame = render_samples(scene.tracer, view, sample_options(kSize, kSize, kSamples));
-    for (int x = 0; x < kSize; ++x) {
-        CAPTURE(x);
-        double sum = 0;
-        for (int y = 0; y < kSize; ++y)
-            sum += green(frame, static_cast<std::size_t>(y * kSize + x));
-        const double to_edge = kSize / 2 + 0.3 - (x + 0.5);  // [pixels]
-        const double coverage = 0.5 * (1 + std::erf(to_edge / 0.6));
-        const double error = std::sqrt(coverage * (1 - coverage) / (kSamples * kSize));
-        CHECK(std::abs(sum / kSize - coverage) < 4 * error + 1e-4);  // tails that no sample meets
+    view.position = {0.5 - 0.3 * width / kEdgeSize, 0, 0};  // 0.3 pixels left of it
+    view.vertical = 0.4;  // nowhere near the upper and lower edges
+    FrameOptions options = sample_options(kEdgeSize, kEdgeSize, samples);
+    options.pixels.filter = filter;
+    const TileMask tiles = all_tiles(options);
+    if (!cut_off) options.tiles = &tiles;
+    const Frame frame = render_samples(scene.tracer, view, options);
+    std::vector<double> means(kEdgeSize);
+    for (std::size_t i = 0; i < frame.radiance.size(); ++i)
+        means[i % kEdgeSize] += green(frame, i) / kEdgeSize;
+    return means;
+}
+
+/// Share of Mitchell's filter that is left of x: the integral of its two cubics.
+double mitchell_left_of(double x) {
+    const double d = std::min(std::abs(x), 2.0);
+    const auto inner = [](double t) {
+        return (7 * t * t * t * t / 4 - 4 * t * t * t + 16 * t / 3) / 6;
+    };
+    const auto outer = [](double t) {
+        return (-7 * t * t * t * t / 12 + 4 * t * t * t - 10 * t * t + 32 * t / 3) / 6;
+    };
+    const double half = d < 1 ? inner(d) : inner(1) + outer(d) - outer(1);
+    return x > 0 ? .5 + half : .5 - half;
+}
+
+TEST_CASE("a straight edge gets what the filter sees of it") {
+    constexpr int kSamples = 64;
+    for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::mitchell}) {
+        const bool gaussian = filter == PixelFilter::gaussian;
+        const std::vector<double> found = edge_response(filter, kSamples, false);
+        double least = 1;
+        for (int x = 0; x < kEdgeSize; ++x) {
+            CAPTURE(x);
+            const double to_edge = kEdgeSize / 2 + 0.3 - (x + 0.5);  // [pixels]
+            const double coverage =
+                gaussian ? 0.5 * (1 + std::erf(to_edge / 0.6)) : mitchell_left_of(to_edge);
+            // Independent samples would have this standard error at most.
+            const double error = std::sqrt(std::max(std::abs(coverage * (1 - coverage)), .02) /
+                                           (kSamples * kEdgeSize));
+            const double value = found[static_cast<std::size_t>(x)];
+            CHECK(std::abs(value - coverage) < 4 * error + 1e-4);  // tails that no sample meets
+            least = std::min(least, value);
+        }
+        CHECK((least < -.01) == !gaussian);  // beside the edge
     }
+}
+
+TEST_CASE("a finished picture has no negative radiance, whatever its filter") {
+    const std::vector<double> whole = edge_response(PixelFilter::mitchell, 16, false);
+    const std::vector<double> cut = edge_response(PixelFilter::mitchell, 16, true);
+    REQUIRE(*std::ranges::min_element(whole) < -.01);
+    CHECK(*std::ranges::min_element(cut) >= 0);
+    for (std::size_t x = 0; x < cut.size(); ++x)
+        if (whole[x] > .1) CHECK(cut[x] == whole[x]);
 }
 
 TEST_CASE("16 samples have less than an eighth of the variance of one" * one_thread) {
@@ -187,6 +245,10 @@ TEST_CASE("with several samples a window is that part of the picture, layers and
     const Camera camera(room_view());
     FrameOptions options = sample_options(90, 70, 6);
     options.hits = true;
+    SUBCASE("Gaussian") {}
+    SUBCASE("Mitchell's filter") {
+        options.pixels.filter = PixelFilter::mitchell;
+    }
     const auto executor = make_executor(ExecutorKind::serial, 1);
     const Frame whole = render_samples(scene.tracer, camera, options, *executor);
     options.window = PixelRectangle{13, 5, 58, 69};
@@ -207,11 +269,14 @@ TEST_CASE("what is bright all over is so in every pixel, to rounding, whatever t
     const TestScene scene(
         "void glow even 0 0 4 .7 .5 .3 0\n"
         "even source all 0 0 4 0 0 1 360\n");
-    for (const int samples : {2, 3, 4, 9, 16}) {
-        const Frame frame =
-            render_samples(scene.tracer, room_view(), sample_options(40, 35, samples));
-        for (std::size_t i = 0; i < frame.radiance.size(); ++i)
-            REQUIRE(green(frame, i) == doctest::Approx(.5).epsilon(1e-5));
+    for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::mitchell}) {
+        for (const int samples : {2, 3, 4, 9, 16}) {
+            FrameOptions options = sample_options(40, 35, samples);
+            options.pixels.filter = filter;
+            const Frame frame = render_samples(scene.tracer, room_view(), options);
+            for (std::size_t i = 0; i < frame.radiance.size(); ++i)
+                REQUIRE(green(frame, i) == doctest::Approx(.5).epsilon(1e-5));
+        }
     }
 }
 

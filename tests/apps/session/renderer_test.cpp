@@ -162,6 +162,34 @@ TEST_CASE("renderer: cancelling ends what was started, from any thread, and noth
     CHECK(stages.back() == RenderProgress::Stage::finished);
 }
 
+TEST_CASE(
+    "renderer: until a picture is good all rays are told, those that fill the cache as well") {
+    const LoadedScene scene(from_bytes(kLampRoom));
+    for (const bool deterministic : {false, true}) {
+        CAPTURE(deterministic);
+        RendererOptions options = two_threads();
+        options.light.ambient_bounces = 1;
+        options.deterministic = deterministic;
+        options.goal.error = .3;
+        options.progress_interval = 0;
+        std::vector<RenderProgress> told;
+        options.progress = [&](const RenderProgress& progress) { told.push_back(progress); };
+        Renderer renderer(scene, options);
+        const auto picture = renderer.finish(renderer.start(task_at(0)));
+        REQUIRE(picture);
+        const std::uint64_t all = renderer.backend().statistics().rays.total();
+        REQUIRE(told.size() > 2);
+        CHECK(told.back().rays == all);
+        CHECK(picture->rays == all);
+        std::uint64_t before = 0;
+        for (const RenderProgress& progress : told) {
+            CHECK(progress.rays >= before);
+            CHECK(progress.rays <= all);
+            before = progress.rays;
+        }
+    }
+}
+
 TEST_CASE("renderer: lists of rays are one input, however it is divided") {
     const LoadedScene scene(from_bytes(kLampRoom));
     RendererOptions options = two_threads();

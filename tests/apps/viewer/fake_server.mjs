@@ -148,6 +148,7 @@ function greet(socket, client, session) {
         view: places.get(session) || kViews[0].view,
         display,
         settings,
+        denoises: true,
     });
     tell_roles();
     if (failing) return tell(socket, failing);
@@ -361,6 +362,7 @@ function next_frame(socket, client) {
     } else if (!wish.moving && client.strip < kStrips) {
         pieces = [strip_piece(jpeg, view, wish, client.strip++, display)];
         flags = client.strip === kStrips ? 6 : 2;
+        if (display.clean && client.strip === kStrips) flags |= 8;
     } else return;
     client.busy = true;
     socket.send(frame_bytes(++client.frame, wish, view.position, flags, pieces, display));

@@ -47,6 +47,7 @@ test("the header's numbers stand where the protocol has them", () => {
         complete: true,
         at_rest: false,
         final: true,
+        denoised: false,
         display: 200,
         exposure: 0.5,
         eye: [1.25, -2.5, 1e-7],
@@ -61,9 +62,10 @@ test("each flag is one bit", () => {
         [1, "complete"],
         [2, "at_rest"],
         [4, "final"],
+        [8, "denoised"],
     ]) {
         const head = parse_frame(frame({ flags }));
-        for (const other of ["complete", "at_rest", "final"])
+        for (const other of ["complete", "at_rest", "final", "denoised"])
             assert.equal(head[other], other === name);
     }
 });

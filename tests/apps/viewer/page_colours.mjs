@@ -1,6 +1,6 @@
 // Steps of page_test.mjs: exposure and colours, which the page changes by itself until the server's frames have them.
 import assert from "node:assert/strict";
-import { shown, until, value } from "./page_helpers.mjs";
+import { saved_text, shown, until, value } from "./page_helpers.mjs";
 
 /** Small bytes r, g, b of what is on the picture. */
 const bytes_of = (page) =>
@@ -69,6 +69,41 @@ export const colour_steps = (address, prank) => ({
         await page.keyboard.press("1");
         await page.waitForTimeout(100);
         await shown(page);
+    },
+
+    async "clean pictures are for the eye: a choice of the driver, told under what is saved"(page) {
+        await page.focus("#picture");
+        const denoised = (wanted) =>
+            until(page, (w) => window.lightwalk.final && window.lightwalk.denoised === w, wanted);
+        await denoised(false);
+        const toggle = async (panel) => {
+            await page.mouse.move(300, 300); // or the buttons may have faded
+            await page.click(`#dock [data-panel=${panel}]`);
+        };
+        const height = async () => {
+            await toggle("save");
+            return (await saved_text(page, "#write-png")).bytes.readUInt32BE(20);
+        };
+        assert.equal(await height(), 500);
+        await toggle("light");
+        assert.ok(await page.isVisible("#clean-line"));
+        assert.ok(!(await page.isChecked("#clean")));
+        await page.click("#clean-line");
+        await denoised(true);
+        const other = await page.context().browser().newPage();
+        await other.goto(address);
+        await until(other, () => window.lightwalk?.denoised && !window.lightwalk.driving);
+        assert.ok(await other.isChecked("#clean"));
+        await other.close();
+        assert.ok((await height()) > 500, "the picture does not say that it is clean");
+        await toggle("light");
+        await page.focus("#picture");
+        await page.keyboard.press("f"); // luminance is of what was traced
+        await page.waitForSelector("#clean-line", { state: "hidden" });
+        await page.keyboard.press("f");
+        await page.click("#clean-line");
+        await denoised(false);
+        await toggle("light");
     },
 
     async "a watcher has the driver's colours, and their scale"(page) {

@@ -50,12 +50,15 @@ inline SceneSource room(const std::string& text = kRoom) {
 struct Walk {
     explicit Walk(const LoadedScene& scene, double rate = 30, bool groups = false)
         : Walk(scene, options_of(true, groups), rate) {}
+    /// One whose pages may see denoised pictures, and are told luminances.
+    Walk(const LoadedScene& scene, PictureCleaner::Denoise denoise)
+        : Walk(scene.compiled(), options_of(true), 30, true, std::move(denoise)) {}
     /// @param changes  whether its scene may be changed
     Walk(const LoadedScene& scene, const RendererOptions& renderer_options, double rate = 30,
          bool changes = true)
         : Walk(scene.compiled(), renderer_options, rate, changes) {}
     Walk(const std::shared_ptr<const CompiledScene>& scene, const RendererOptions& renderer_options,
-         double rate = 30, bool changes = true)
+         double rate = 30, bool changes = true, PictureCleaner::Denoise denoise = {})
         : renderer(std::make_unique<LocalBackend>(scene, renderer_options)) {
         inbox.attach(clients);
         for (const ClientId client : {kDriver, kWatcher})
@@ -64,6 +67,7 @@ struct Walk {
         View home;
         home.position = {0, -4, 1.5};
         RenderLoopOptions options{rate, 1, "lightwalk walk"};
+        options.denoise = std::move(denoise);
         if (changes) {
             options.change = scene_changer(renderer.backend());
             options.replace = scene_replacer(renderer.backend());

@@ -104,17 +104,63 @@ TEST_CASE("the samples of a pixel are the same each time, pixels and seeds have 
     CHECK(std::isfinite(pixel_sample(1, 0, 0, 7, 8, 1 - 0x1p-53).x));
 }
 
-TEST_CASE(
-    "the filter is the Gaussian of .6 pixels, and ends where less than half a per cent is left") {
-    CHECK(pixel_filter(0) == 1);
-    CHECK(pixel_filter(0.6) == doctest::Approx(std::exp(-1)));
-    CHECK(pixel_filter(-1.2) == doctest::Approx(std::exp(-4)));
-    CHECK(pixel_filter(kPixelFilterReach) == 0);
-    CHECK(pixel_filter(-kPixelFilterReach) == 0);
-    const double kept = std::erf(kPixelFilterReach / kPixelFilterRadius);
+TEST_CASE("the Gaussian is that of .6 pixels, and ends where less than half a per cent is left") {
+    const auto filter = [](double d) { return pixel_filter(PixelFilter::gaussian, d); };
+    constexpr double kReach = pixel_filter_reach(PixelFilter::gaussian);
+    CHECK(filter(0) == 1);
+    CHECK(filter(0.6) == doctest::Approx(std::exp(-1)));
+    CHECK(filter(-1.2) == doctest::Approx(std::exp(-4)));
+    const double kept = std::erf(kReach / kPixelFilterRadius);
     CHECK(1 - kept * kept < 0.005);
-    // A sample reaches no farther than the eight pixels around its own.
-    CHECK(kPixelFilterReach <= 1.5);
+}
+
+TEST_CASE("Mitchell's filter is the cubic of B = C = 1/3 of its paper") {
+    const auto filter = [](double d) { return pixel_filter(PixelFilter::mitchell, d); };
+    // Equation 8 with B = C = 1/3, piece by piece.
+    constexpr double kB = 1.0 / 3, kC = 1.0 / 3;
+    for (const double x : {0.0, .3, .5, .99, 1.0, 1.2, 1.6, 1.99}) {
+        CAPTURE(x);
+        const double inner =
+            (12 - 9 * kB - 6 * kC) * x * x * x + (-18 + 12 * kB + 6 * kC) * x * x + (6 - 2 * kB);
+        const double outer = (-kB - 6 * kC) * x * x * x + (6 * kB + 30 * kC) * x * x +
+                             (-12 * kB - 48 * kC) * x + (8 * kB + 24 * kC);
+        CHECK(filter(x) == doctest::Approx((x < 1 ? inner : outer) / 6));
+        CHECK(filter(-x) == filter(x));
+        CHECK((filter(x) < 0) == (x > 8.0 / 7));
+        CHECK(filter(x) > -.0364);
+    }
+}
+
+TEST_CASE(
+    "a place counts for pixels as much as for all of the picture: their weights' sum is one") {
+    for (int i = 0; i <= 40; ++i) {
+        const double at = i / 40.0 - .5;
+        CAPTURE(at);
+        const auto sum = [at](PixelFilter filter) {
+            double weights = 0;
+            for (int pixel = -4; pixel <= 4; ++pixel) weights += pixel_filter(filter, at - pixel);
+            return weights;
+        };
+        CHECK(sum(PixelFilter::mitchell) == doctest::Approx(1).epsilon(1e-12));
+        // The Gaussian's is so on average, and nowhere far from it.
+        CHECK(sum(PixelFilter::gaussian) ==
+              doctest::Approx(kPixelFilterRadius * std::sqrt(kPi)).epsilon(.08));
+    }
+}
+
+TEST_CASE("a filter reaches the pixels that it says, and no farther") {
+    for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::mitchell}) {
+        const double reach = pixel_filter_reach(filter);
+        CHECK(pixel_filter(filter, reach) == 0);
+        CHECK(pixel_filter(filter, -reach) == 0);
+        CHECK(pixel_filter(filter, reach - .01) != 0);
+        // Of samples that lie up to half a pixel from their own pixel's centre.
+        CHECK(reach <= reached_pixels(filter) + .5);
+        CHECK(reach > reached_pixels(filter) - .5);
+        CHECK(std::isfinite(pixel_filter(filter, 1e300)));
+    }
+    CHECK(has_negative_weights(PixelFilter::mitchell));
+    CHECK_FALSE(has_negative_weights(PixelFilter::gaussian));
 }
 
 TEST_CASE("shared samples lie in their pixel, one in each cell of the grid that their number has") {

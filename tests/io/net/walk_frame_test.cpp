@@ -43,6 +43,8 @@ TEST_CASE("walk frame: each flag is a bit of its own") {
     CHECK(encode_walk_frame(header, {})[16] == 6);
     header.whole = true;
     CHECK(encode_walk_frame(header, {})[16] == 7);
+    header.denoised = true;
+    CHECK(encode_walk_frame(header, {})[16] == 15);
 }
 
 TEST_CASE("walk frame: pieces follow the header, each with its place, codec, length and bytes") {

@@ -49,6 +49,8 @@ TEST_CASE("walk reply: a welcome tells all that a page starts from") {
     expected["view"] = kViewJson;
     expected["views"] = json::array({{{"name", "door"}, {"view", kViewJson}}});
     CHECK(json::parse(walk_text(reply)) == expected);
+    reply.denoises = expected["denoises"] = true;
+    CHECK(json::parse(walk_text(reply)) == expected);
     reply.view.reset();
     CHECK(json::parse(walk_text(reply))["view"].is_null());
 }
@@ -59,6 +61,7 @@ TEST_CASE("walk reply: views and settings come back as the same requests") {
     reply.display = {{true, false, -1.5, true, 0.25, 2000, false}, 9};
     for (const WalkAmbient ambient : {WalkAmbient::rest, WalkAmbient::always, WalkAmbient::off}) {
         reply.settings.ambient = ambient;
+        reply.display.clean = ambient == WalkAmbient::rest;
         const json told = json::parse(walk_text(reply));
         json display = told["display"], settings = told["settings"];
         display["type"] = "display";

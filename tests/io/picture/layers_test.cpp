@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "io/files/library_path.h"
+#include "io/files/module.h"
 #include "io/options/option_words.h"
 #include "io/picture/encode_picture.h"
+#include "io/picture/image_decoder.h"
+#include "io/picture/image_encoder.h"
 #include "tests/temporary_folder.h"
 
 using namespace lightwalk;
@@ -32,11 +36,48 @@ struct Layers {
     std::vector<Rgb> sun = layer_pixels(2), lamp = layer_pixels(.5f);
     PictureHeader header{{"rpict -o x", "VIEW= -vtv", "CAPDATE= 2001:02:03 04:05:06"}};
 
-    void write(const std::string& pattern) const {
+    void write(const std::string& pattern, const std::vector<float>& error = {}) const {
         const std::vector<PictureLayer> layers{{"sun", sun}, {"desk.lamp", lamp}};
-        write_layers(pattern, whole, layers, header, [](const std::string& name) { return name; });
+        write_layers(pattern, whole, layers, error, header,
+                     [](const std::string& name) { return name; });
     }
 };
+
+/// One channel of an OpenEXR file.
+class ChannelRows final : public ImageRows {
+  public:
+    explicit ChannelRows(std::string name) : name_(std::move(name)) {}
+    [[nodiscard]] int most_channels() const override { return 64; }
+    void named(const std::vector<std::string>& channels, const std::string&) override {
+        at_ = static_cast<std::size_t>(std::ranges::find(channels, name_) - channels.begin());
+    }
+    bool begin(int width, int, int channels, bool) override {
+        width_ = width;
+        channels_ = static_cast<std::size_t>(channels);
+        return at_ < channels_;
+    }
+    void take(int, int count, const float* values) override {
+        for (int i = 0; i < count * width_; ++i)
+            found.push_back(values[static_cast<std::size_t>(i) * channels_ + at_]);
+    }
+    std::vector<float> found;  ///< empty: there is no such channel
+
+  private:
+    std::string name_;
+    std::size_t at_ = 0, channels_ = 0;
+    int width_ = 0;
+};
+
+std::vector<float> channel_of(const std::string& path, const std::string& name) {
+    std::string error;
+    const auto decode =
+        reinterpret_cast<DecodeImage>(load_from_module(kImageModule, kDecodeImageSymbol, error));
+    REQUIRE_MESSAGE(static_cast<bool>(decode), error);
+    ChannelRows rows(name);
+    decode(read_file(path), "openexr", rows, error = {});
+    CHECK(error.empty());
+    return rows.found;
+}
 
 Picture sum_of(const std::string& path, const std::vector<Rgb>& factors) {
     const std::string bytes = read_file(path);
@@ -83,6 +124,29 @@ TEST_CASE("beside its layers an OpenEXR file shows the whole picture") {
     const std::string bytes = read_file(folder.path("all.exr"));
     for (const char* channel : {"sun.R", "sun.G", "sun.B", "desk.lamp.R"})
         CHECK(bytes.find(std::string(channel) + '\0') != std::string::npos);
+}
+
+TEST_CASE("the picture's error goes beside the layers, and is none of them") {
+    const TemporaryFolder folder;
+    const Layers layers;
+    std::vector<float> error;
+    for (int i = 0; i < kWidth * kHeight; ++i) error.push_back(.001f * static_cast<float>(i));
+    layers.write(folder.path("with.exr"), error);
+    layers.write(folder.path("without.exr"));
+    CHECK(channel_of(folder.path("with.exr"), "error") == error);
+    CHECK(channel_of(folder.path("without.exr"), "error").empty());
+    const auto names = [&](const std::string& file) {
+        return read_layers_header(read_file(folder.path(file)), file).names;
+    };
+    CHECK(names("with.exr") == names("without.exr"));
+    const std::vector<Rgb> factors{{1, 2, 3}, {1, 2, 3}};
+    CHECK(sum_of(folder.path("with.exr"), factors).pixels ==
+          sum_of(folder.path("without.exr"), factors).pixels);
+    for (const char* channel : {"R", "G", "B", "sun.R", "desk.lamp.B"})
+        CHECK(channel_of(folder.path("with.exr"), channel) ==
+              channel_of(folder.path("without.exr"), channel));
+    layers.write(folder.path("%s.exr"), error);  // that of a layer by itself is not known
+    CHECK(channel_of(folder.path("sun.exr"), "error").empty());
 }
 
 TEST_CASE("layers in files of their own say in their headers which they are") {
