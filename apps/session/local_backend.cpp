@@ -74,9 +74,9 @@ std::optional<Frame> LocalBackend::draw_pass(const PictureRequest& pass, TakePro
 /// False: stopped.
 bool LocalBackend::fill_cache(const PictureRequest& request, TakeProgress progress) {
     if (!session_->freezable) return true;
-    const CachePrepassResult filled =
-        fill_ambient_cache(session_->tracer(), request.camera, request.options, prepass(),
-                           *session_->freezable, *executor_, contexts_, stop(), progress);
+    const CachePrepassResult filled = fill_ambient_cache(
+        session_->tracer(), request.camera, request.options, prepass(), *session_->freezable,
+        *executor_, contexts_, stop(), progress, nullptr, request.checkpoint.get());
     statistics_.rays += filled.rays;
     statistics_.ambient += filled.ambient;
     return filled.complete;

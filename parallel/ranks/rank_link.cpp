@@ -199,17 +199,33 @@ int RankLink::Workers::size() const {
     return static_cast<int>(link_.topology_.workers.size());
 }
 
+int RankLink::Rounds::index() const {
+    return link_.traces() ? link_.workers_.index() : -1;
+}
+
+int RankLink::Rounds::parts() const {
+    return size() + (link_.topology_.traces(0) ? 0 : 1);
+}
+
+std::vector<std::string> RankLink::Rounds::all_gather(std::string mine) {
+    std::vector<std::string> parts = link_.all_gather(Collective::Group::rounds, std::move(mine));
+    if (!link_.topology_.traces(0)) std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+    return parts;
+}
+
 void RankLink::agree(const std::vector<std::string>& facts, const std::string& problem,
                      const std::string& advice) {
     const std::vector<std::string> all = all_gather(
         Collective::Group::all, wire::encode(Declaration{host_, printable(problem), facts}));
     Declaration first;
+    std::vector<std::string> hosts;
     std::map<std::string, int> problems;  // text -> rank that has it
     std::vector<std::string> lines;
     bool differ = false;
     for (int rank = 0; rank < ranks(); ++rank) {
         const auto one = wire::decode<Declaration>(all[static_cast<std::size_t>(rank)]);
         if (rank == 0) first = one;
+        hosts.push_back(one.host);
         if (!one.problem.empty()) {
             if (problems.emplace(one.problem, rank).second)
                 lines.push_back(named(rank, one.host) + one.problem);

@@ -152,6 +152,18 @@ class RankLink {
       private:
         RankLink& link_;
     };
+    /// They, and rank 0.
+    class Rounds final : public Group {
+      public:
+        explicit Rounds(RankLink& link) : link_(link) {}
+        [[nodiscard]] int index() const override;
+        [[nodiscard]] int size() const override { return link_.workers_.size(); }
+        [[nodiscard]] int parts() const override;
+        [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override;
+
+      private:
+        RankLink& link_;
+    };
     class Everyone final : public Group {
       public:
         explicit Everyone(RankLink& link) : link_(link) {}

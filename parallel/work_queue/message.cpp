@@ -81,7 +81,7 @@ void visit_fields(Wire& wire, TracedPixelResult& pixel) {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 8;
+constexpr std::uint8_t kVersion = 9;
 
 }  // namespace
 

@@ -396,6 +396,12 @@ TEST_CASE("rank link: ranks that trace gather among themselves, while the others
             CHECK(link.workers().size() == 3);
             CHECK(link.workers().index() == link.rank() - 2);
         }
+        // Rank 0 hears what comes of their rounds.
+        if (link.traces() || link.leads()) {
+            CHECK(link.rounds().index() == (link.leads() ? -1 : link.rank() - 2));
+            same = same && link.rounds().all_gather(std::to_string(link.rank())) ==
+                               std::vector<std::string>{"2", "3", "4", "0"};
+        }
         good += same ? 1 : 0;
     });
     CHECK(all_well(outcome));
