@@ -16,6 +16,7 @@
 #include "parallel/comm/communicator.h"
 #include "parallel/comm/group.h"
 #include "parallel/ranks/ambient_exchange.h"
+#include "parallel/ranks/pulse.h"
 #include "parallel/ranks/rank_report.h"
 #include "parallel/ranks/rank_roles.h"
 #include "parallel/ranks/tracer_inbox.h"
@@ -88,13 +89,17 @@ class RankLink {
     [[nodiscard]] std::string broadcast(std::string bytes);
     /// The ranks that trace, for one of their tracing threads.
     [[nodiscard]] Group& workers() { return workers_; }
+    /// The ranks that trace, and rank 0: where it does not trace it does none of the work. For one
+    /// thread of each.
+    [[nodiscard]] Group& rounds() { return rounds_; }
     /// All ranks, for one thread of each.
     [[nodiscard]] Group& everyone() { return everyone_; }
     /// Ranks that own parts of a walk's frames.
     [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
 
     /// Every rank tells what it is about to compute with ("version", digests, ...), or why it
-    /// cannot. Where one cannot, or two differ, all throw AgreedProblem.
+    /// cannot. Where one cannot, or two differ, all throw AgreedProblem. From then on ranks on
+    /// several machines watch each other (Pulse).
     /// @param problem  "" is none
     /// @param advice   goes with it where others have a problem that rank 0 has not
     void agree(const std::vector<std::string>& facts, const std::string& problem,
@@ -192,6 +197,7 @@ class RankLink {
     // The program's threads.
     [[nodiscard]] Collective perform(Collective share);
     void flush_values();
+    void watch(std::vector<std::string> hosts);
     void meet() { (void)all_gather(Collective::Group::all, {}); }
     [[noreturn]] void fail(const std::string& text);
 
@@ -201,6 +207,7 @@ class RankLink {
     [[nodiscard]] bool run_posted();
     [[nodiscard]] bool handle_arrived();
     void exchange_values_in_time();
+    void keep_pulse();
     void note_flushed();
     void tell(RankRoles& roles, Outbox& out);
     void take_step(Activity activity, const Step& step);
@@ -217,8 +224,11 @@ class RankLink {
     Timeline timeline_;  ///< a row for each tracing thread, the last one for messages
     Patience patience_;
     RankRoles roles_;
+    Pulse pulse_;
+    std::vector<std::string> hosts_;  ///< by rank, once the pulse has started
     std::vector<int> owners_;
     Workers workers_{*this};
+    Rounds rounds_{*this};
     Everyone everyone_{*this};
     TracerInbox inbox_;
     SharedCache cache_;

@@ -60,6 +60,8 @@ LIGHTWALK_FIELDS(Notice, m.notice)
 
 template <class Wire>
 void visit_fields(Wire&, Finish&) {}
+template <class Wire>
+void visit_fields(Wire&, Alive&) {}
 
 template <class Wire>
 void visit_fields(Wire& wire, AmbientValues& values) {

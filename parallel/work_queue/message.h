@@ -120,13 +120,15 @@ struct Failure {
 };
 /// No more work comes.
 struct Finish {};
+/// This rank is still there (see Pulse).
+struct Alive {};
 /// What a rank did, as its program writes it.
 struct Report {
     std::string payload;
 };
 /// Program to program.
 struct Notice {
-    std::variant<Failure, Finish, Report, PreparedChange> notice;
+    std::variant<Failure, Finish, Report, PreparedChange, Alive> notice;
 };
 
 using Message = std::variant<Announcement, WorkRequest, WorkGrant, WorkResult, FinishedPart,
