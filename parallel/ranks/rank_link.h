@@ -60,11 +60,13 @@ class RankLink {
     [[nodiscard]] bool traces() const { return topology_.traces(rank()); }
     [[nodiscard]] const Topology& topology() const { return topology_; }
     [[nodiscard]] bool on_one_machine() const { return communicator_.on_one_machine(); }
+    [[nodiscard]] int first_on_machine() const { return communicator_.first_on_machine(); }
 
     /// Runs `body`, the program, on a thread of its own, while this thread, which must be the one
     /// that opened the communicator, serves the messages until every rank's body has returned; an
     /// AgreedProblem goes on to the caller. Any other exception ends the whole run (TakeFailure),
-    /// as does `stop`: by Communicator::abort(), so that this throws Aborted or never returns.
+    /// as do `stop` and, on several machines, a rank that is silent for too long: by
+    /// Communicator::abort(), so that this throws Aborted or never returns.
     void run(FunctionRef<void()> body, const StopFlag& stop);
 
     // What follows is called from within body, and throws Aborted when the run ends meanwhile.

@@ -235,6 +235,7 @@ class DeadCommunicator final : public Communicator {
     [[nodiscard]] int size() const override { return wire_->size(); }
     [[nodiscard]] std::string host() const override { return wire_->host(); }
     [[nodiscard]] bool on_one_machine() const override { return true; }
+    [[nodiscard]] int first_on_machine() const override { return 0; }
     void send(int, std::string) override {}
     [[nodiscard]] std::optional<Packet> receive() override {
         (void)wire_->receive();  // throws when another rank has aborted
