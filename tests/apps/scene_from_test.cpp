@@ -214,8 +214,10 @@ TEST_CASE("a command line that only another rank cannot understand ends the run 
     const ProgramResult result = run_program(words_with({"-bogus"}), "", line);
     CHECK(result.status != 0);
     CHECK(result.out.empty());
-    // Ranks 1 and 2 cannot; the first of them to say so may end the run before the other does.
-    const std::size_t said = std::min(result.err.find("rank 1 ("), result.err.find("rank 2 ("));
+    // Ranks 1 and 2 cannot, which is said once.
+    const std::size_t said = result.err.find("rank 1 (");
     CHECK(said < result.err.find("unknown option -bogus"));
+    CHECK(result.err.find("unknown option -bogus") == result.err.rfind("unknown option -bogus"));
     CHECK(result.err.find("unknown option -bogus") != std::string::npos);
+    CHECK(result.status == 2);
 }

@@ -16,6 +16,10 @@
 #include "parallel/comm/communicator.h"
 #include "parallel/comm/mpi_module.h"
 
+/// What Open MPI's MPI_Abort does once it has said so in eight lines, which would stand below the
+/// one that tells what is wrong. Null: it is not there, or not Open MPI.
+extern "C" __attribute__((weak)) int ompi_mpi_abort(MPI_Comm communicator, int status);
+
 namespace lightwalk {
 namespace {
 
@@ -124,6 +128,7 @@ class MpiCommunicator final : public Communicator {
     }
 
     [[noreturn]] void abort(int status) override {
+        if (ompi_mpi_abort != nullptr) ompi_mpi_abort(MPI_COMM_WORLD, status);
         MPI_Abort(MPI_COMM_WORLD, status);
         std::_Exit(status);
     }
