@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "apps/interrupt.h"
+#include "apps/launcher_output.h"
 #include "io/files/atomic_file.h"
 
 namespace lightwalk {
@@ -26,19 +27,38 @@ CommandRun::CommandRun(CommonOptions& options, Communicator* communicator)
     check_render_settings(options.settings);
     for (const std::string& notice : options.notices) warnings_.warn(notice);
     if (!speaks()) return;
+    const std::string copies =
+        warning_of_copies(communicator != nullptr ? communicator->size() : 1);
+    if (!copies.empty()) warnings_.warn(copies);
+    forwarded_ = communicator != nullptr && !write_past_launcher();
     for (const std::string& file : {options.stats_file, options.ranks.timeline})
         if (!file.empty()) check_writable(file);  // not once the work is done
 }
 
+void CommandRun::use_standard_output() {
+    if (forwarded_)
+        warnings_.warn(
+            "standard output goes through mpirun, which does not say where it cannot write it all: "
+            "it may be cut");
+}
+
 void CommandRun::join(const RendererOptions& work) {
-    ranks_ = join_ranks(communicator_, options_.ranks, options_.program(), work);
+    // One process keeps a timeline as the only one of several does.
+    if (communicator_ == nullptr && !options_.ranks.timeline.empty())
+        alone_ = std::move(make_memory_communicators(1).front());
+    Communicator* const communicator = alone_ ? alone_.get() : communicator_;
+    ranks_ = join_ranks(communicator, options_.ranks, options_.program(), work);
     if (ranks_) options_.set_threads(ranks_->threads());
 }
 
 int CommandRun::share_out(FunctionRef<int()> body) {
     if (!ranks_) return body();
     int status = kFailureStatus;
-    ranks_->run([&] { status = body(); });
+    try {
+        ranks_->run([&] { status = body(); });
+    } catch (const Aborted& aborted) {  // what is one rank in memory alone
+        return aborted.status;
+    }
     return status;
 }
 

@@ -33,6 +33,11 @@ class CommandRun {
     [[nodiscard]] bool speaks() const {
         return communicator_ == nullptr || communicator_->rank() == 0;
     }
+    /// What the command makes goes to standard output. Warns where nobody can know whether it
+    /// arrives.
+    void use_standard_output();
+    /// Whether a launcher copies standard output.
+    [[nodiscard]] bool output_is_forwarded() const { return forwarded_; }
     /// This process becomes one of several, if there are others to share such work with.
     void join(const RendererOptions& work);
     /// After join(): calls `body` on every rank.
@@ -49,6 +54,8 @@ class CommandRun {
     CommonOptions& options_;
     Communicator* communicator_;
     StderrWarnings warnings_;
+    bool forwarded_ = false;
+    std::unique_ptr<Communicator> alone_;  ///< see join()
     std::unique_ptr<Ranks> ranks_;
 };
 

@@ -42,6 +42,9 @@ class ContribRun final : CommandRun {
             outputs_.push_back({request.output, request.name, tracked_.back().bins});
         }
         (void)contribution_outputs(outputs_);  // what is wrong with names is told at once
+        if (std::any_of(outputs_.begin(), outputs_.end(),
+                        [](const OutputRequest& request) { return request.specification.empty(); }))
+            use_standard_output();
         settle_light();
         if (command_.cache) settle_cache();
     }

@@ -222,7 +222,8 @@ int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
         print_rad_plan(*plan, scene->scene());
         settle_rad_light(*plan, scene->scene(), settings.light);
     }
-    const SceneSession session(scene, settings.light, settings.ambient_file, false, warnings);
+    const SceneSession session(scene, settings.light, settings.ambient_file, OthersValues::taken,
+                               false, warnings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());
     print_bsdfs(session.scene());

@@ -53,11 +53,10 @@ int dispatch(const std::vector<std::string>& words, Communicator* ranks) {
 }
 
 /// Runs the command; what is wrong is said on standard error, by rank 0 alone where all ranks see
-/// it.
-int run(const std::vector<std::string>& words) {
+/// it. Sets `ranks` where there are several.
+int run(const std::vector<std::string>& words, std::unique_ptr<Communicator>& ranks) {
     const Command* const command = words.empty() ? nullptr : find_command(words.front());
     const std::string program = std::string("lightwalk") + (command ? ' ' + words.front() : "");
-    std::unique_ptr<Communicator> ranks;
     const auto say = [&](const std::string& text) {
         if (!ranks || ranks->rank() == 0) std::fprintf(stderr, "%s\n", text.c_str());
     };
@@ -84,6 +83,17 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     lightwalk::prepare_heap();
-    return lightwalk::run(argc > 1 ? std::vector<std::string>(argv + 1, argv + argc)
-                                   : std::vector<std::string>());
+    std::unique_ptr<lightwalk::Communicator> ranks;
+    const int status = lightwalk::run(
+        argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>(),
+        ranks);
+    if (!ranks || status == lightwalk::kSuccessStatus) return status;
+    // Of a process that ends by itself with another status mpirun tells a dozen lines. The others
+    // wait for rank 0 before they end.
+    if (ranks->rank() == 0) {
+        std::fflush(nullptr);
+        ranks->abort(status);
+    }
+    ranks.reset();
+    return status;
 }

@@ -24,10 +24,15 @@ struct RankCommand {
 /// Understands the command line: rank 0 first, by the files, environment and standard input it has;
 /// then the others, by what rank 0 has read of these. `parse` throws UsageError or InputError for
 /// what is wrong; when that is so on rank 0, the others throw the same without a text, and when on
-/// another, it says so and ends the run.
+/// another, rank 0 throws it, naming that rank, and all others without a text.
 /// @param communicator  null: this process is alone
 void parse_on_ranks(Communicator* communicator, const std::string& program,
                     FunctionRef<void(const std::shared_ptr<FileSource>&)> parse);
+
+/// What there is to warn of where a launcher has started several processes that do not share the
+/// work, as srun does without PMI: each would do all of it. For the first of them; "" is nothing.
+/// @param ranks  that share the work
+[[nodiscard]] std::string warning_of_copies(int ranks);
 
 /// The variant that runs: the one asked for, or else `hybrid` where ranks have several threads or
 /// are too few to spare any, and `ranks` otherwise. Throws UsageError where it cannot be.

@@ -46,10 +46,7 @@ class RenderRun final : CommandRun {
         resolve_scene_files(command_.common,
                             command_.first_frame > 0 ? "the views of the sequence (-S)" : "",
                             files);
-        // mpirun shows its processes a terminal, whatever becomes of their output.
-        if (communicator == nullptr && command_.output.picture.empty() &&
-            isatty(STDOUT_FILENO) != 0)
-            throw UsageError("standard output is a terminal: name the picture's file with -o");
+        if (speaks() && command_.output.picture.empty()) check_standard_output();
         if (speaks()) check_outputs();
         if (speaks() && command_.output.denoise) (void)Denoiser();  // before anything is drawn
         keep_ambient_values();
@@ -85,7 +82,7 @@ class RenderRun final : CommandRun {
         task.options.light.sample_lights = sample_lights();
         if (reuses()) {
             task.options.reuse = std::make_shared<const CloudOptions>(command_.walk->cloud);
-            task.options.frames = walk_length(*command_.walk);
+            task.options.frames = walk_length(*command_.walk) - frames_there();
         }
         task.options.progress = [this](const RenderProgress& progress) {
             printer_.print(progress);
@@ -159,6 +156,13 @@ class RenderRun final : CommandRun {
         }
     }
 
+    void check_standard_output() {
+        // mpirun shows its processes a terminal, whatever becomes of their output.
+        if (!output_is_forwarded() && isatty(STDOUT_FILENO) != 0)
+            throw UsageError("standard output is a terminal: name the picture's file with -o");
+        use_standard_output();
+    }
+
     void choose_spacing() {
         constexpr int kLargestSpacing = 16;
         PixelOptions& pixels = options().pixels;
@@ -180,9 +184,28 @@ class RenderRun final : CommandRun {
         pixels.spacing = 1;
     }
 
+    /// Whether a frame is not to be drawn again.
+    [[nodiscard]] bool is_there(int frame) const {
+        const SeriesOutput& output = command_.output;
+        // Its values are those that the next picture's rounds begin with; all of it is kept.
+        if (checkpoint_ && checkpoint_->has_rounds(frame)) return false;
+        if (command_.walk ? !command_.resume : output.layers || !varies_by_frame(output.picture))
+            return false;
+        return std::filesystem::exists(frame_name(output.picture, frame)) &&
+               (!command_.walk || output.depth.empty() ||
+                std::filesystem::exists(frame_name(output.depth, frame)));
+    }
+
+    /// Of a walk, how many.
+    [[nodiscard]] std::size_t frames_there() const {
+        std::size_t count = 0;
+        for (std::size_t frame = 1; frame <= walk_length(*command_.walk); ++frame)
+            count += is_there(static_cast<int>(frame)) ? 1 : 0;
+        return count;
+    }
+
     /// What is to be rendered; pictures of a sequence that are there already are left out.
     [[nodiscard]] std::vector<WantedPicture> wanted_pictures(const Scene& scene) {
-        const std::string& files = command_.output.picture;
         int frame = command_.walk ? 1 : command_.first_frame;
         if (frame == 0) return {{command_.view, std::nullopt, 0}};
         std::optional<View> before;
@@ -191,10 +214,7 @@ class RenderRun final : CommandRun {
         for (const View& view : command_.walk
                                     ? walk_views(*command_.walk, command_.view, scene)
                                     : read_view_sequence(read_standard_input(), command_.view)) {
-            const bool is_there = !command_.walk && !command_.output.layers &&
-                                  varies_by_frame(files) &&
-                                  std::filesystem::exists(frame_name(files, frame));
-            if (!is_there) wanted.push_back({view, before, frame});
+            if (!is_there(frame)) wanted.push_back({view, before, frame});
             before = view;
             ++frame;
         }

@@ -228,7 +228,8 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
 }
 
 std::vector<OptionRow> run_rows(RenderCommand& c) {
-    const RefusedOption frames{": a walk's frames are kept as files, one by one"};
+    const RefusedOption frames{
+        ": a walk's frames are kept as files, one by one: --resume draws the others"};
     RendererOptions& renderer = c.common.request.options;
     return {
         {"Cache of indirect light, beside -af", SectionTitle{"render"}},
@@ -239,13 +240,17 @@ std::vector<OptionRow> run_rows(RenderCommand& c) {
         {"Interrupted runs", SectionTitle{"render"}},
         {"--checkpoint FILE", &c.checkpoint,
          "keep finished blocks in FILE, at most two seconds after they are traced; with -ab, "
-         "ambient values in FILE-ambient, unless -af or --deterministic does what that is for",
+         "ambient values in FILE-ambient, unless -af keeps them; with --deterministic their rounds "
+         "in FILE",
          With{.commands = kRender}},
         {"--resume", &c.resume,
          "with --checkpoint: a run that was killed goes on, with any number of ranks and threads",
          With{.commands = kRender}},
         {"--checkpoint", frames, "", With{.commands = kAnimate}},
-        {"--resume", frames, "", With{.commands = kAnimate}}};
+        {"--resume", &c.resume,
+         "frames whose files are there are not drawn again. The first one that is drawn then has "
+         "no points of frames before it; with -ab nor their ambient values, unless -af keeps them",
+         With{.commands = kAnimate}}};
 }
 
 std::vector<OptionRow> refused_rows() {
@@ -315,7 +320,7 @@ void check_outputs(const RenderCommand& command) {
             "options --error and --time: frames that reuse each other's points have samples of "
             "their own: say --reuse off");
     check_filter(command);
-    if (command.resume && command.checkpoint.empty())
+    if (command.resume && command.checkpoint.empty() && !command.walk)
         throw UsageError("option --resume: name the file with --checkpoint");
     (void)frame_name(output.depth, 0);
 }
@@ -330,6 +335,13 @@ void check_animate(const RenderCommand& command) {
             "-o walk.mp4");
     if (!output.depth.empty() && !varies_by_frame(output.depth))
         throw UsageError("option -z: expected %d in the name, for the frames' numbers");
+    if (command.resume && is_film(output.picture))
+        throw UsageError("option --resume: a film is made as a whole: draw frames, -o f%04d.png");
+    const bool for_screen = !is_radiance_picture(output.picture) && !is_exr_picture(output.picture);
+    if (command.resume && for_screen && output.tone.automatic)
+        throw UsageError(
+            "option --resume: all frames are exposed as the first one, which is not drawn again: "
+            "say --exposure EV");
     if (command.walk->reuse && (pixels.aperture > 0 || pixels.motion > 0))
         throw UsageError("options -pd and -pm blur what points show sharp: say --reuse off");
 }

@@ -21,6 +21,7 @@ class TraceRun final : CommandRun {
           command_(command),
           options_(command.common.request.options.rays),
           stream_(command.formats.input) {
+        use_standard_output();
         prepare_output();
         resolve_scene_files(command_.common, "the rays", files);
         check();

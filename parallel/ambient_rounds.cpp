@@ -34,7 +34,8 @@ class RecordCollector {
 
 AmbientRounds::AmbientRounds(const Tracer& tracer, PublishedCache& cache, Executor& executor,
                              WorkerContexts& contexts, Group& exchange, const StopFlag& stop,
-                             std::function<void(std::size_t left)> after_round)
+                             std::function<void(std::size_t left)> after_round,
+                             CheckpointSink* checkpoint)
     : tracer_(tracer),
       cache_(cache),
       executor_(executor),
@@ -42,20 +43,51 @@ AmbientRounds::AmbientRounds(const Tracer& tracer, PublishedCache& cache, Execut
       exchange_(exchange),
       stop_(stop),
       after_round_(std::move(after_round)),
+      checkpoint_(checkpoint),
       calculation_(tracer),
       guess_(cache.limits()),
       counts_(static_cast<std::size_t>(std::max(tracer.options().ambient_bounces, 1))) {
     calculation_.use_cache(&cache);
     cache_.freeze(true);
+    agree_on_known();
+}
+
+/// Rounds that begin with another cache are others.
+void AmbientRounds::agree_on_known() {
+    const AmbientLogMean mean = cache_.log_mean();
+    const std::string beginning = wire::encode(RoundsBeginning{mean.count, mean.sum});
+    if (checkpoint_ != nullptr) {
+        const std::vector<std::string> steps = checkpoint_->known_steps(beginning);
+        known_.assign(steps.begin(), steps.end());
+    }
+    known_steps_ = known_.size();
+    if (exchange_.parts() == 1) return;
+    for (const std::string& told : exchange_.all_gather(wire::encode(RoundsKnown{known_steps_})))
+        known_steps_ = std::max<std::size_t>(known_steps_, wire::decode<RoundsKnown>(told).steps);
+}
+
+/// Of the other processes nothing.
+RoundShare AmbientRounds::take_known() {
+    if (known_.empty()) return {};
+    const auto step = wire::decode<RoundShare>(known_.front());
+    known_.pop_front();
+    return step;
+}
+
+/// A step that is done, unless it was known.
+void AmbientRounds::keep(const RoundShare& step) {
+    const bool fresh = !is_known();
+    ++steps_;
+    if (fresh && checkpoint_ != nullptr) checkpoint_->keep_step(wire::encode(step));
 }
 
 /// Each process adds whether it was requested to stop, so that all stop at the same place, and
 /// whether it left points out.
 std::vector<RoundShare> AmbientRounds::gather(RoundShare mine) {
     mine.stop = stop_.requested();
-    mine.left_out = left_out_;
+    mine.left_out = mine.left_out || left_out_;
     std::vector<RoundShare> all;
-    if (exchange_.size() == 1) {
+    if (exchange_.parts() == 1) {
         all.push_back(std::move(mine));
     } else {
         for (const std::string& bytes : exchange_.all_gather(wire::encode(mine))) {
@@ -72,17 +104,22 @@ std::vector<RoundShare> AmbientRounds::gather(RoundShare mine) {
 
 std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
     RoundShare mine;
-    {
+    if (is_known()) {
+        mine = take_known();
+    } else {
         const CollectingPoints collecting(contexts_);
         trace();
         mine.points = collecting.points();
-        left_out_ = left_out_ || collecting.left_out();
+        mine.left_out = collecting.left_out();
     }
     const std::vector<RoundShare> all = gather(std::move(mine));
-    std::vector<AmbientPoint> points;
+    if (stopped_) return {};
+    RoundShare found;
+    found.left_out = left_out_;
     for (const RoundShare& share : all)
-        points.insert(points.end(), share.points.begin(), share.points.end());
-    return stopped_ ? std::vector<AmbientPoint>() : points;
+        found.points.insert(found.points.end(), share.points.begin(), share.points.end());
+    keep(found);
+    return std::move(found.points);
 }
 
 /// Whether the cache has a usable value for each of some points.
@@ -131,6 +168,7 @@ void AmbientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
 
 /// The values of the points, in their order; after a stop, nothing.
 std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& chosen) {
+    if (is_known()) return look_up(chosen.size());
     RoundShare mine;
     mine.values.resize(chosen.size());
     const auto make = [&](std::size_t task, int worker) {
@@ -147,15 +185,29 @@ std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& 
     executor_.for_each(chosen.size(), make, stop_);
     std::vector<RoundShare> all = gather(std::move(mine));
     if (stopped_) return {};
-    std::vector<RoundValue> made(chosen.size());
-    for (std::size_t other = 0; other < all.size(); ++other) {
-        std::vector<RoundValue>& theirs = all[other].values;
-        if (theirs.size() != made.size())
+    RoundShare made;
+    made.left_out = left_out_;
+    made.values.resize(chosen.size());
+    for (const RoundShare& share : all)
+        if (share.values.size() != made.values.size())
             throw InputError("another rank computes other ambient values");
-        for (std::size_t i = other; i < made.size(); i += all.size())
-            made[i] = std::move(theirs[i]);
+    const auto workers = static_cast<std::size_t>(exchange_.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        made.values[i] = std::move(all[i % workers].values[i]);
+    keep(made);
+    return std::move(made.values);
+}
+
+/// The values of a step that a checkpoint has.
+std::vector<RoundValue> AmbientRounds::look_up(std::size_t count) {
+    std::vector<RoundShare> all = gather(take_known());
+    if (stopped_) return {};
+    for (RoundShare& share : all) {
+        if (share.values.size() != count) continue;
+        keep(share);
+        return std::move(share.values);
     }
-    return made;
+    throw InputError("the checkpoint has ambient values of other rounds");
 }
 
 /// Store the values of all chosen points; of those computed on the way, only the ones that no

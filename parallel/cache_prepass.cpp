@@ -82,7 +82,7 @@ class PrepassRun {
 
     /// For one coarse picture after another, finds the ambient values that its pixels lack, and
     /// computes them in rounds. False: stopped.
-    [[nodiscard]] bool fill_in_rounds(Group& exchange) {
+    [[nodiscard]] bool fill_in_rounds(Group& exchange, CheckpointSink* checkpoint) {
         int step = 1;            // of the present picture
         std::size_t points = 0;  // without a value that its pixels found
         double told = 0;
@@ -91,10 +91,12 @@ class PrepassRun {
             tell(step, {done, contexts_.rays().total(), contexts_.ambient().computed});
         };
         AmbientRounds rounds(
-            tracer_, cache_, executor_, contexts_, exchange, stop_, [&](std::size_t left) {
+            tracer_, cache_, executor_, contexts_, exchange, stop_,
+            [&](std::size_t left) {
                 tell_done(1 -
                           (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points));
-            });
+            },
+            checkpoint);
         for (const int next_step : steps_of(prepass_)) {
             step = next_step;
             contexts_.reset_counters();
@@ -189,13 +191,15 @@ CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera
                                       const FrameOptions& options, CachePrepass prepass,
                                       PublishedCache& cache, Executor& executor,
                                       WorkerContexts& contexts, const StopFlag& stop,
-                                      TakeProgress progress, Group* exchange) {
+                                      TakeProgress progress, Group* exchange,
+                                      CheckpointSink* checkpoint) {
     PrepassRun run(tracer, camera, options, prepass, cache, executor, contexts, stop, progress);
     GroupOfOne alone;
     cache.freeze(false);
-    const bool complete = prepass == CachePrepass::deterministic
-                              ? run.fill_in_rounds(exchange != nullptr ? *exchange : alone)
-                              : run.fill_by_pictures();
+    const bool complete =
+        prepass == CachePrepass::deterministic
+            ? run.fill_in_rounds(exchange != nullptr ? *exchange : alone, checkpoint)
+            : run.fill_by_pictures();
     if (!complete) cache.freeze(false);
     CachePrepassResult result = run.result();
     result.complete = complete;

@@ -44,11 +44,10 @@ inline constexpr int kQuickStep = 6;
 /// @param exchange  with other processes that call this with the same scene and options for a
 ///                  `deterministic` prepass, and end with the same cache; null: there are none.
 ///                  Counters tell of this process alone
-[[nodiscard]] CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
-                                                    const FrameOptions& options,
-                                                    CachePrepass prepass, PublishedCache& cache,
-                                                    Executor& executor, WorkerContexts& contexts,
-                                                    const StopFlag& stop, TakeProgress progress,
-                                                    Group* exchange = nullptr);
+/// @param checkpoint  keeps the rounds of a `deterministic` prepass; null: none does
+[[nodiscard]] CachePrepassResult fill_ambient_cache(
+    const Tracer& tracer, const Camera& camera, const FrameOptions& options, CachePrepass prepass,
+    PublishedCache& cache, Executor& executor, WorkerContexts& contexts, const StopFlag& stop,
+    TakeProgress progress, Group* exchange = nullptr, CheckpointSink* checkpoint = nullptr);
 
 }  // namespace lightwalk

@@ -26,6 +26,24 @@ struct RoundShare {
     std::vector<RoundValue> values;
 };
 
+/// Says with which cache rounds begin: the number of its values, and the sum of AmbientLogMean.
+struct RoundsBeginning {
+    std::uint64_t values = 0;
+    double log_sum = 0;
+};
+/// What a process tells the others before the first step: how many a checkpoint has.
+struct RoundsKnown {
+    std::uint64_t steps = 0;
+};
+
+template <class Wire>
+void visit_fields(Wire& wire, RoundsBeginning& beginning) {
+    wire(beginning.values, beginning.log_sum);
+}
+template <class Wire>
+void visit_fields(Wire& wire, RoundsKnown& known) {
+    wire(known.steps);
+}
 template <class Wire>
 void visit_fields(Wire& wire, AmbientPoint& p) {
     AmbientQuery& q = p.query;

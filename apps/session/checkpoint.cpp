@@ -13,6 +13,7 @@ namespace {
 constexpr std::chrono::seconds kOften{1};  ///< between two times of writing, which cost a sync
 
 using Head = std::array<std::int32_t, 5>;  ///< frame, x0, y0, x1, y1
+constexpr PixelRectangle kBeginning{-1, 0, 0, 0}, kStep{-1, 1, 0, 0};
 
 bool contains(const PixelRectangle& whole, const PixelRectangle& part) {
     return whole.x0 <= part.x0 && whole.y0 <= part.y0 && part.x1 <= whole.x1 && part.y1 <= whole.y1;
@@ -41,7 +42,18 @@ class Checkpoint::Picture final : public CheckpointSink {
         }
         return blocks;
     }
-    void keep(const BlockPixels& pixels) override { checkpoint_.keep(frame_, pixels); }
+    void keep(const BlockPixels& pixels) override {
+        checkpoint_.keep({frame_, pixels.block, pixels.values});
+    }
+    [[nodiscard]] std::vector<std::string> known_steps(const std::string& beginning) override {
+        KnownRounds rounds = std::exchange(checkpoint_.known_rounds_[frame_], {});
+        if (rounds.beginning == beginning) return std::move(rounds.steps);
+        checkpoint_.keep({frame_, kBeginning, {}, beginning});
+        return {};
+    }
+    void keep_step(std::string step) override {
+        checkpoint_.keep({frame_, kStep, {}, std::move(step)});
+    }
 
   private:
     Checkpoint& checkpoint_;
@@ -59,8 +71,14 @@ void Checkpoint::read(std::string_view record) {
     Head head{};
     if (record.size() < sizeof head) return;
     std::memcpy(head.data(), record.data(), sizeof head);
-    known_[head[0]].push_back(
-        {{head[1], head[2], head[3], head[4]}, std::string(record.substr(sizeof head))});
+    const PixelRectangle block{head[1], head[2], head[3], head[4]};
+    std::string rest(record.substr(sizeof head));
+    if (block == kBeginning)
+        known_rounds_[head[0]] = {std::move(rest), {}};
+    else if (block == kStep)
+        known_rounds_[head[0]].steps.push_back(std::move(rest));
+    else
+        known_[head[0]].push_back({block, std::move(rest)});
 }
 
 std::shared_ptr<CheckpointSink> Checkpoint::picture(int frame, const PixelRectangle& whole) {
@@ -69,12 +87,13 @@ std::shared_ptr<CheckpointSink> Checkpoint::picture(int frame, const PixelRectan
 
 void Checkpoint::forget(int frame) {
     known_.erase(frame);
+    known_rounds_.erase(frame);
 }
 
-void Checkpoint::keep(int frame, const BlockPixels& pixels) {
+void Checkpoint::keep(Kept kept) {
     const std::lock_guard lock(mutex_);
     if (problem_) std::rethrow_exception(problem_);
-    kept_.push_back({frame, pixels.block, pixels.values});
+    kept_.push_back(std::move(kept));
     if (kept_.size() == 1) changed_.notify_all();
 }
 
@@ -93,7 +112,8 @@ void Checkpoint::write(const std::stop_token& ending) {
             for (const Kept& one : kept) {
                 const Head head{one.frame, one.block.x0, one.block.y0, one.block.x1, one.block.y1};
                 std::string record(reinterpret_cast<const char*>(head.data()), sizeof head);
-                log_->append(record + encode_piece(one.block, one.values));
+                log_->append(record + (one.of_rounds.empty() ? encode_piece(one.block, one.values)
+                                                             : one.of_rounds));
             }
             log_->sync();
             lock.lock();

@@ -1,5 +1,6 @@
 #pragma once
-// Finished blocks on disk, so that a run that was killed goes on where it stood.
+// Finished blocks, and rounds of ambient values, on disk, so that a run that was killed goes on
+// where it stood.
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -17,7 +18,9 @@
 namespace lightwalk {
 
 /// A log of blocks: frame number and rectangle (five i32), then the pixels as encode_piece packs
-/// them. A thread of its own writes; blocks are on disk at most two seconds after they are kept.
+/// them; and of rounds of ambient values, in whose place for the rectangle is none: x0 is -1, y0
+/// says whether it is how the picture's rounds begin (0) or one of their steps (1), and the rest is
+/// 0. A thread of its own writes; what is kept is on disk at most two seconds later.
 class Checkpoint {
   public:
     /// Blocks of a file that is there already are known.
@@ -32,6 +35,8 @@ class Checkpoint {
     /// The blocks of one picture of the run, which must not outlive this.
     /// @param whole  all of its pixels; known blocks beyond are left out
     [[nodiscard]] std::shared_ptr<CheckpointSink> picture(int frame, const PixelRectangle& whole);
+    /// Whether an earlier run has kept rounds of this picture.
+    [[nodiscard]] bool has_rounds(int frame) const { return known_rounds_.contains(frame); }
     /// The picture is written: its blocks are no longer needed.
     void forget(int frame);
     /// The run is whole: removes the file.
@@ -43,16 +48,22 @@ class Checkpoint {
         PixelRectangle block;
         std::string bytes;
     };
+    struct KnownRounds {
+        std::string beginning;
+        std::vector<std::string> steps;
+    };
     struct Kept {
         int frame = 0;
         PixelRectangle block;
         std::vector<PixelValue> values;
+        std::string of_rounds = {};
     };
     void read(std::string_view record);
-    void keep(int frame, const BlockPixels& pixels);
+    void keep(Kept kept);
     void write(const std::stop_token& ending);
 
     std::map<int, std::vector<Known>> known_;  ///< by frame
+    std::map<int, KnownRounds> known_rounds_;  ///< likewise
     std::unique_ptr<RecordLog> log_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable_any changed_;

@@ -129,7 +129,8 @@ void CompiledScene::read(const SceneSource& source) {
     if (late != names.end()) throw InputError({*late, 0}, kOneBase);
     if (!first) return read_files(source, nullptr);
     // Every rank maps it itself, also where one reads for all: its pages are shared anyway.
-    std::unique_ptr<FrozenScene> base = open_frozen_scene(names.front(), source.allow_stale);
+    std::unique_ptr<FrozenScene> base =
+        open_frozen_scene(files_->place_of(names.front()), source.allow_stale);
     files_->note_mapped(names.front(), base->file().digest());
     if (names.size() > 1) return read_files(source, std::move(base));
     adopt(std::move(base));

@@ -87,7 +87,8 @@ CachePrepassResult LocalBackend::fill_cache(const PictureRequest& request, TakeP
     filled.complete = true;
     if (!session_->freezable) return filled;
     filled = fill_ambient_cache(session_->tracer(), request.camera, request.options, prepass(),
-                                *session_->freezable, *executor_, contexts_, stop(), progress);
+                                *session_->freezable, *executor_, contexts_, stop(), progress,
+                                nullptr, request.checkpoint.get());
     statistics_.rays += filled.rays;
     statistics_.ambient += filled.ambient;
     return filled;

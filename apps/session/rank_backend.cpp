@@ -89,6 +89,7 @@ void RankBackend::order(const PictureRequest& request) {
         link_.start({PictureJob{
             link_.new_number(), quick_prepass(options).whole(), 1, false, payload, {}, false}});
     const BlockRenderer renderer(session_->tracer(), request.camera, options, contexts_, stop());
+    kept_rounds_ = request.checkpoint;
     PictureJob job{
         link_.new_number(),           options.area(), renderer.alignment(), true, payload, {},
         request.checkpoint != nullptr};
@@ -124,6 +125,7 @@ std::optional<Frame> RankBackend::finish(const PictureRequest& request) {
 
 std::optional<Frame> RankBackend::receive(const PictureRequest& request, TakeProgress progress) {
     const Job& job = jobs_.front();
+    if (request.first) listen_to_rounds(request.camera, request.options);
     for (double told = -1; !job.picture && !stop().requested(); receive_news(true))
         if (job.done > std::exchange(told, job.done)) progress({job.done, 0, 0});
     std::optional<Frame> frame;
@@ -227,6 +229,9 @@ double RankBackend::kept_points() const {
 std::optional<AssembledFrame> RankBackend::draw(FrameOrder order, const StopFlag& stop) {
     order.number = link_.new_number();
     link_.start({order});
+    if (!options_.steered)
+        listen_to_rounds(Camera(wire::decode<PictureOrder>(order.payload).view),
+                         frame_options(order.width, order.height));
     for (frame_.reset(); !frame_; receive_news(true))
         if (stop.requested()) return std::nullopt;
     return assemble_frame(order, *frame_);

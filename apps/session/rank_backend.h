@@ -84,6 +84,9 @@ class RankBackend final : public RenderBackend {
     [[nodiscard]] std::unique_ptr<SceneCaster> make_rays(const FrameOrder& order);
     void fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
                     Executor& executor);
+    /// Rank 0 hears what comes of the rounds of a deterministic picture, also where it does not
+    /// trace: it may keep a file of their values, or a checkpoint.
+    void listen_to_rounds(const Camera& camera, const FrameOptions& options);
     [[nodiscard]] RankReport report() const;
 
     RankLink& link_;
@@ -95,7 +98,9 @@ class RankBackend final : public RenderBackend {
 
     // On rank 0.
     std::deque<Job> jobs_;  ///< oldest first
-    RayDemand demand_;      ///< lists that are wanted and not begun
+    /// That keeps the rounds of the picture that was ordered last; null: none does.
+    std::shared_ptr<CheckpointSink> kept_rounds_;
+    RayDemand demand_;  ///< lists that are wanted and not begun
     std::uint64_t next_chunk_ = 0;
     std::deque<std::string> answers_;  ///< of lists of rays, in their order
     std::optional<FinishedFrame> frame_;

@@ -186,14 +186,20 @@ std::unique_ptr<SceneCaster> RankBackend::make_rays(const FrameOrder& order) {
     return rays;
 }
 
+void RankBackend::listen_to_rounds(const Camera& camera, const FrameOptions& options) {
+    if (link_.traces() || prepass() != CachePrepass::deterministic) return;
+    fill_cache(camera, options, CachePrepass::deterministic,
+               *make_executor(ExecutorKind::serial, 1));
+}
+
 void RankBackend::fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
                              Executor& executor) {
     WorkerContexts contexts(session_->tracer(), warnings_, executor.concurrency());
     if (contexts_.light_groups() != nullptr) contexts.sum_by(contexts_.shared_groups());
     const CachePrepassResult filled = fill_ambient_cache(
         session_->tracer(), camera, options, how, *session_->freezable, executor, contexts, stop(),
-        [](const FrameProgress&) {},
-        how == CachePrepass::deterministic ? &link_.workers() : nullptr);
+        [](const FrameProgress&) {}, how == CachePrepass::deterministic ? &link_.rounds() : nullptr,
+        kept_rounds_.get());
     past_counters_.rays += filled.rays;
     past_counters_.ambient += filled.ambient;
 }

@@ -26,15 +26,20 @@ void cut_off_at_zero(Frame& frame) {
         std::ranges::transform(group, group.begin(), positive_part);
 }
 
+/// A deterministic run computes all that was not in its ambient file when it began.
+OthersValues use_of_others(const RendererOptions& options) {
+    return options.deterministic && !options.steered ? OthersValues::left : OthersValues::taken;
+}
+
 }  // namespace
 
 RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options,
                              bool leads)
     : options_(std::move(options)),
       warnings_(options_.warn),
-      session_(std::make_unique<SceneSession>(std::move(scene), options_.light,
-                                              leads ? options_.ambient_file : std::string(),
-                                              options_.keep_coefficients, warnings_)),
+      session_(std::make_unique<SceneSession>(
+          std::move(scene), options_.light, leads ? options_.ambient_file : std::string(),
+          use_of_others(options_), options_.keep_coefficients, warnings_)),
       executor_(make_executor(options_.executor.value_or(kDefaultExecutor),
                               options_.threads > 0 ? options_.threads : hardware_threads())),
       contexts_(session_->tracer(), warnings_, executor_->concurrency()) {
@@ -88,8 +93,9 @@ std::shared_ptr<const CompiledScene> RenderBackend::changed_scene(const ModelCha
 RenderBackend::ChangedScene RenderBackend::make_changed(
     const std::shared_ptr<const CompiledScene>& scene) {
     ChangedScene next;
-    next.session = std::make_unique<SceneSession>(scene, options_.light, std::string(),
-                                                  options_.keep_coefficients, quiet_);
+    next.session =
+        std::make_unique<SceneSession>(scene, options_.light, std::string(), OthersValues::left,
+                                       options_.keep_coefficients, quiet_);
     next.direct = make_direct(*next.session, quiet_);
     next.groups = find_groups(*next.session);
     return next;

@@ -22,7 +22,7 @@ bool caches_ambient_values(const RenderOptions& light) {
 
 SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
                            const RenderOptions& light, const std::string& ambient_file,
-                           bool keeps_coefficients, WarningSink& warnings)
+                           OthersValues others, bool keeps_coefficients, WarningSink& warnings)
     : compiled_(std::move(compiled)), warnings_(warnings), cost_(compiled_->cost()) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor =
@@ -33,7 +33,7 @@ SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
         coefficients = std::make_unique<CoefficientCache>(limits_of(light), kEffort);
         tracer->use_coefficients(coefficients.get());
     } else if (caches_ambient_values(light)) {
-        make_cache(light, ambient_file);
+        make_cache(light, ambient_file, others);
         tracer->use_ambient_cache(freezable.get());
     } else if (!ambient_file.empty()) {
         warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
@@ -48,11 +48,13 @@ AmbientLimits SceneSession::limits_of(const RenderOptions& light) const {
     return ambient_limits(cube.origin, cube.size, light.ambient_accuracy, light.ambient_resolution);
 }
 
-void SceneSession::make_cache(const RenderOptions& light, const std::string& ambient_file) {
+void SceneSession::make_cache(const RenderOptions& light, const std::string& ambient_file,
+                              OthersValues others) {
     ambient = std::make_unique<ConcurrentCache>(limits_of(light));
     freezable = std::make_unique<PublishedCache>(*ambient);
     if (ambient_file.empty()) return;
-    ambient_store = std::make_unique<AmbientStore>(ambient_file, light, *ambient, warnings_);
+    ambient_store =
+        std::make_unique<AmbientStore>(ambient_file, light, *ambient, warnings_, others);
     known = ambient_store->take_loaded();
     freezable->add(*ambient_store);
 }

@@ -23,10 +23,12 @@ class SceneSession {
     /// Throws InputError.
     /// @param compiled      after compile()
     /// @param ambient_file  where indirect values are kept; "": nowhere
+    /// @param others        what becomes of values that other processes add to it
     /// @param keeps_coefficients  in place of indirect values
     /// @param warnings      must outlive this
     SceneSession(std::shared_ptr<const CompiledScene> compiled, const RenderOptions& light,
-                 const std::string& ambient_file, bool keeps_coefficients, WarningSink& warnings);
+                 const std::string& ambient_file, OthersValues others, bool keeps_coefficients,
+                 WarningSink& warnings);
 
     [[nodiscard]] const CompiledScene& compiled() const { return *compiled_; }
     [[nodiscard]] const std::shared_ptr<const CompiledScene>& shared_compiled() const {
@@ -42,7 +44,8 @@ class SceneSession {
 
   private:
     [[nodiscard]] AmbientLimits limits_of(const RenderOptions& light) const;
-    void make_cache(const RenderOptions& light, const std::string& ambient_file);
+    void make_cache(const RenderOptions& light, const std::string& ambient_file,
+                    OthersValues others);
 
     std::shared_ptr<const CompiledScene> compiled_;
     WarningSink& warnings_;

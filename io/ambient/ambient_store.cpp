@@ -67,8 +67,8 @@ class AmbientStore::Lock {
 };
 
 AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options,
-                           AmbientCache& cache, WarningSink& warnings)
-    : path_(path), cache_(cache) {
+                           AmbientCache& cache, WarningSink& warnings, OthersValues others)
+    : path_(path), cache_(cache), others_(others) {
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) {
         file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -136,13 +136,13 @@ std::vector<AmbientRecord> AmbientStore::use(const std::vector<AmbientRecord>& r
 }
 
 /// Whole records that other processes have appended; the file is locked.
-void AmbientStore::take_over_appended() {
+void AmbientStore::pass_appended() {
     struct stat status {};
     if (fstat(file_, &status) != 0) fail(path_, "cannot read");
     if (static_cast<std::size_t>(status.st_size) < known_ + kAmbientRecordSize) return;
     const std::string bytes = read_from(file_, known_, path_);
     const AmbientFile contents = decode_ambient_file(encode_ambient_header({}) + bytes, path_);
-    (void)use(contents.records);
+    if (others_ == OthersValues::taken) (void)use(contents.records);
     known_ += contents.records.size() * kAmbientRecordSize;
 }
 
@@ -153,7 +153,7 @@ void AmbientStore::stored(const AmbientRecord& record, std::span<const Rgb> /*gr
     const std::string bytes = encode_ambient_record(*kept);
     const std::lock_guard guard(mutex_);
     const Lock lock(file_, true, path_);
-    take_over_appended();
+    pass_appended();
     write_at(file_, known_, bytes, path_);
     known_ += bytes.size();
 }

@@ -16,8 +16,14 @@
 
 namespace lightwalk {
 
+/// What becomes of values that other processes append to the file.
+enum class OthersValues {
+    taken,  ///< they are inserted into the cache
+    left,   ///< the cache has none that were not in the file when it was opened
+};
+
 /// Listens to a cache: each value that is stored there is also appended to the file at once, as a
-/// whole record, and values that other processes append are inserted into the cache. The file is
+/// whole record, and values that other processes append may be inserted into the cache. The file is
 /// locked (fcntl) while it is read or written, as by Radiance's programs.
 class AmbientStore final : public AmbientListener {
   public:
@@ -28,7 +34,7 @@ class AmbientStore final : public AmbientListener {
     /// ambient file, is of another version of the format, or cannot be read.
     /// @param cache  must outlive this
     AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
-                 WarningSink& warnings);
+                 WarningSink& warnings, OthersValues others = OthersValues::taken);
     ~AmbientStore() override;
     AmbientStore(const AmbientStore&) = delete;
     AmbientStore& operator=(const AmbientStore&) = delete;
@@ -43,15 +49,17 @@ class AmbientStore final : public AmbientListener {
     class Lock;
     void load(const RenderOptions& options, WarningSink& warnings);
     [[nodiscard]] std::vector<AmbientRecord> use(const std::vector<AmbientRecord>& records);
-    void take_over_appended();
+    void pass_appended();
 
     std::string path_;
     AmbientCache& cache_;
     int file_ = -1;
     bool writable_ = true;
+    OthersValues others_;
     std::optional<AmbientFit> fit_;  ///< set once the header has been read
     std::mutex mutex_;               ///< guards the file
-    std::size_t known_ = 0;          ///< the cache has the records of so many bytes of the file
+    std::size_t known_ =
+        0;  ///< the file has whole records, which were looked at, up to here [bytes]
     std::vector<AmbientRecord> loaded_;
 };
 

@@ -45,6 +45,9 @@ class FileSource {
     [[nodiscard]] std::vector<std::string> matches(const std::string& pattern);
     [[nodiscard]] std::optional<std::string> place(const std::string& name);
 
+    /// By which path to map a file into memory whose beginning was asked for.
+    [[nodiscard]] virtual std::string place_of(const std::string& path) { return path; }
+
     /// Keep a file in memory: from now on `readable` and `read` know `path` by these bytes,
     /// whatever the source says. Whoever repeats the reading makes it again, so it is no answer of
     /// the source, and neither recorded nor sent.
@@ -68,6 +71,10 @@ class FileRecorder final : public FileSource {
 
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
+
+    [[nodiscard]] std::string place_of(const std::string& path) override {
+        return source_->place_of(path);
+    }
 
     /// A line for each file, command and standard input, in the order in which they were first
     /// read: the name without folders, and a digest of the bytes.
@@ -102,6 +109,14 @@ class FileReplay final : public FileSource {
     explicit FileReplay(std::string_view recording);
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
+    /// A file that is to be mapped is elsewhere in this process.
+    void move_to(const std::string& path, std::string elsewhere) {
+        places_[path] = std::move(elsewhere);
+    }
+    [[nodiscard]] std::string place_of(const std::string& path) override {
+        const auto found = places_.find(path);
+        return found == places_.end() ? path : found->second;
+    }
     /// Release the memory of the recording, but for answers of so many bytes at most.
     void clear(std::size_t kept = 0) {
         std::erase_if(answers_,
@@ -110,6 +125,7 @@ class FileReplay final : public FileSource {
 
   private:
     std::map<std::string, std::string, std::less<>> answers_;
+    std::map<std::string, std::string> places_;
 };
 
 }  // namespace lightwalk

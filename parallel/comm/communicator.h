@@ -22,6 +22,8 @@ class Communicator {
     [[nodiscard]] virtual std::string host() const = 0;
     /// Whether all ranks are on one machine, and can map each other's memory.
     [[nodiscard]] virtual bool on_one_machine() const = 0;
+    /// The lowest of the ranks on this rank's machine, which can map each other's memory.
+    [[nodiscard]] virtual int first_on_machine() const = 0;
 
     /// Returns at once: the bytes are on their way. What one rank sends another arrives in order.
     virtual void send(int to, std::string bytes) = 0;

@@ -17,9 +17,12 @@ class Group {
     Group(const Group&) = delete;
     Group& operator=(const Group&) = delete;
 
-    [[nodiscard]] virtual int index() const = 0;  ///< of this process, 0 ... size() - 1
-    [[nodiscard]] virtual int size() const = 0;
-    /// Everyone's bytes, in the order of their indices.
+    /// Of this process, 0 ... size() - 1; -1: it does none of the work, but hears what comes of it.
+    [[nodiscard]] virtual int index() const = 0;
+    [[nodiscard]] virtual int size() const = 0;  ///< of those that work
+    /// Of those that meet.
+    [[nodiscard]] virtual int parts() const { return size(); }
+    /// Everyone's bytes, in the order of their indices; last, those of who does none of the work.
     [[nodiscard]] virtual std::vector<std::string> all_gather(std::string mine) = 0;
     /// Everyone's numbers, added up one by one; all give as many.
     [[nodiscard]] virtual std::vector<std::uint64_t> all_reduce(

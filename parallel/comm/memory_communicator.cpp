@@ -26,6 +26,7 @@ class MemoryCommunicator final : public Communicator {
     [[nodiscard]] int size() const override { return static_cast<int>(inboxes_->size()); }
     [[nodiscard]] std::string host() const override { return "memory"; }
     [[nodiscard]] bool on_one_machine() const override { return true; }
+    [[nodiscard]] int first_on_machine() const override { return 0; }
 
     void send(int to, std::string bytes) override {
         change(to, [&](Inbox& inbox) { inbox.packets.push_back({rank_, std::move(bytes)}); });

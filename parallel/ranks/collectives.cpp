@@ -12,7 +12,10 @@ Collectives::Collectives(const Topology& topology, std::size_t owners) {
     std::iota(all.begin(), all.end(), 0);
     const std::vector<int> workers = topology.worker_ranks();
     const auto last = static_cast<std::ptrdiff_t>(std::min(owners, workers.size()));
-    members_ = {std::move(all), workers, {workers.begin(), workers.begin() + last}};
+    std::vector<int> in_rounds = workers;
+    if (!topology.traces(0)) in_rounds.insert(in_rounds.begin(), 0);
+    members_ = {
+        std::move(all), workers, {workers.begin(), workers.begin() + last}, std::move(in_rounds)};
 }
 
 void Collectives::handle(int from, Collective share, Outbox& out) {

@@ -50,6 +50,7 @@ RankLink::RankLink(Communicator& communicator, const Topology& topology,
       timeline_(settings.slots + 1, keep_spans),
       patience_(patience_of(topology)),
       roles_(communicator.rank(), topology, with_timed_encoding(settings, timeline_)),
+      pulse_(communicator.rank(), communicator.size(), settings.pulse),
       owners_(roles_.collectives().members(Collective::Group::owners)),
       cache_(settings.ambient_batch, [this](AmbientValues values) {
           post(Activity::exchange, [carried = std::move(values)](RankRoles& roles, Outbox& out) {
@@ -199,17 +200,33 @@ int RankLink::Workers::size() const {
     return static_cast<int>(link_.topology_.workers.size());
 }
 
+int RankLink::Rounds::index() const {
+    return link_.traces() ? link_.workers_.index() : -1;
+}
+
+int RankLink::Rounds::parts() const {
+    return size() + (link_.topology_.traces(0) ? 0 : 1);
+}
+
+std::vector<std::string> RankLink::Rounds::all_gather(std::string mine) {
+    std::vector<std::string> parts = link_.all_gather(Collective::Group::rounds, std::move(mine));
+    if (!link_.topology_.traces(0)) std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+    return parts;
+}
+
 void RankLink::agree(const std::vector<std::string>& facts, const std::string& problem,
                      const std::string& advice) {
     const std::vector<std::string> all = all_gather(
         Collective::Group::all, wire::encode(Declaration{host_, printable(problem), facts}));
     Declaration first;
+    std::vector<std::string> hosts;
     std::map<std::string, int> problems;  // text -> rank that has it
     std::vector<std::string> lines;
     bool differ = false;
     for (int rank = 0; rank < ranks(); ++rank) {
         const auto one = wire::decode<Declaration>(all[static_cast<std::size_t>(rank)]);
         if (rank == 0) first = one;
+        hosts.push_back(one.host);
         if (!one.problem.empty()) {
             if (problems.emplace(one.problem, rank).second)
                 lines.push_back(named(rank, one.host) + one.problem);
@@ -224,7 +241,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
                         *rank_0s);
     }
     agreed_ = timeline_.since(Clock::now());
-    if (lines.empty()) return;
+    if (lines.empty()) return watch(std::move(hosts));
     if (!leads()) throw AgreedProblem("");
     if (problems.size() == 1 && !differ && problems.begin()->second == 0)
         throw AgreedProblem(first.problem);
@@ -232,6 +249,14 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     std::string text;
     for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
     throw AgreedProblem(text);
+}
+
+void RankLink::watch(std::vector<std::string> hosts) {
+    if (communicator_.on_one_machine()) return;
+    post(Activity::handle, [this, all = std::move(hosts)](RankRoles&, Outbox&) {
+        hosts_ = all;
+        pulse_.start(Clock::now());
+    });
 }
 
 void RankLink::end_work() {
@@ -303,6 +328,7 @@ void RankLink::handle_messages(const StopFlag& stop) {
             const bool posted = run_posted();
             const bool handled = handle_arrived() || posted;
             exchange_values_in_time();
+            keep_pulse();
             note_flushed();
             if (handled) {
                 wait = patience_.shortest;
@@ -343,6 +369,7 @@ bool RankLink::handle_arrived() {
     bool any = false;
     while (std::optional<Communicator::Packet> packet = communicator_.receive()) {
         any = true;
+        pulse_.heard(packet->from, Clock::now());
         Outbox out;
         out.messages.push_back({packet->from, rank(), decode_message(packet->bytes)});
         dispatch(std::move(out));
@@ -358,6 +385,22 @@ void RankLink::exchange_values_in_time() {
     if (now - exchanged_ < kOften || !cache_.is_open()) return;
     exchanged_ = now;
     take_step(Activity::exchange, [this](auto& roles, auto& out) { tell(roles, out); });
+}
+
+void RankLink::keep_pulse() {
+    const Pulse::Beat beat = pulse_.beat(Clock::now());
+    if (beat.lost) {
+        const auto silence = std::chrono::duration_cast<std::chrono::seconds>(pulse_.silence());
+        end_run(*beat.lost, hosts_[static_cast<std::size_t>(*beat.lost)],
+                "nothing has been heard of it for " + std::to_string(silence.count()) +
+                    " s: is its host still there? (Where mpirun does not end by itself, "
+                    "interrupt it twice.)");
+    }
+    if (!beat.due) return;
+    Outbox out;
+    for (int to = leads() ? 1 : 0; to < (leads() ? ranks() : 1); ++to)
+        out.messages.push_back({rank(), to, Notice{Alive{}}});
+    dispatch(std::move(out));
 }
 
 void RankLink::tell(RankRoles& roles, Outbox& out) {
@@ -430,6 +473,7 @@ void RankLink::push_news(ProgramNews news) {
         if (const auto* failure = std::get_if<Failure>(&notice.notice))
             end_run(told->from, failure->host, failure->text);
         if (std::holds_alternative<Finish>(notice.notice)) return inbox_.close();
+        if (std::holds_alternative<Alive>(notice.notice)) return;
     }
     {
         const std::lock_guard lock(mutex_);

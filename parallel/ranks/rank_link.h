@@ -16,6 +16,7 @@
 #include "parallel/comm/communicator.h"
 #include "parallel/comm/group.h"
 #include "parallel/ranks/ambient_exchange.h"
+#include "parallel/ranks/pulse.h"
 #include "parallel/ranks/rank_report.h"
 #include "parallel/ranks/rank_roles.h"
 #include "parallel/ranks/tracer_inbox.h"
@@ -59,11 +60,13 @@ class RankLink {
     [[nodiscard]] bool traces() const { return topology_.traces(rank()); }
     [[nodiscard]] const Topology& topology() const { return topology_; }
     [[nodiscard]] bool on_one_machine() const { return communicator_.on_one_machine(); }
+    [[nodiscard]] int first_on_machine() const { return communicator_.first_on_machine(); }
 
     /// Runs `body`, the program, on a thread of its own, while this thread, which must be the one
     /// that opened the communicator, serves the messages until every rank's body has returned; an
     /// AgreedProblem goes on to the caller. Any other exception ends the whole run (TakeFailure),
-    /// as does `stop`: by Communicator::abort(), so that this throws Aborted or never returns.
+    /// as do `stop` and, on several machines, a rank that is silent for too long: by
+    /// Communicator::abort(), so that this throws Aborted or never returns.
     void run(FunctionRef<void()> body, const StopFlag& stop);
 
     // What follows is called from within body, and throws Aborted when the run ends meanwhile.
@@ -88,13 +91,17 @@ class RankLink {
     [[nodiscard]] std::string broadcast(std::string bytes);
     /// The ranks that trace, for one of their tracing threads.
     [[nodiscard]] Group& workers() { return workers_; }
+    /// The ranks that trace, and rank 0: where it does not trace it does none of the work. For one
+    /// thread of each.
+    [[nodiscard]] Group& rounds() { return rounds_; }
     /// All ranks, for one thread of each.
     [[nodiscard]] Group& everyone() { return everyone_; }
     /// Ranks that own parts of a walk's frames.
     [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
 
     /// Every rank tells what it is about to compute with ("version", digests, ...), or why it
-    /// cannot. Where one cannot, or two differ, all throw AgreedProblem.
+    /// cannot. Where one cannot, or two differ, all throw AgreedProblem. From then on ranks on
+    /// several machines watch each other (Pulse).
     /// @param problem  "" is none
     /// @param advice   goes with it where others have a problem that rank 0 has not
     void agree(const std::vector<std::string>& facts, const std::string& problem,
@@ -152,6 +159,18 @@ class RankLink {
       private:
         RankLink& link_;
     };
+    /// They, and rank 0.
+    class Rounds final : public Group {
+      public:
+        explicit Rounds(RankLink& link) : link_(link) {}
+        [[nodiscard]] int index() const override;
+        [[nodiscard]] int size() const override { return link_.workers_.size(); }
+        [[nodiscard]] int parts() const override;
+        [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override;
+
+      private:
+        RankLink& link_;
+    };
     class Everyone final : public Group {
       public:
         explicit Everyone(RankLink& link) : link_(link) {}
@@ -180,6 +199,7 @@ class RankLink {
     // The program's threads.
     [[nodiscard]] Collective perform(Collective share);
     void flush_values();
+    void watch(std::vector<std::string> hosts);
     void meet() { (void)all_gather(Collective::Group::all, {}); }
     [[noreturn]] void fail(const std::string& text);
 
@@ -189,6 +209,7 @@ class RankLink {
     [[nodiscard]] bool run_posted();
     [[nodiscard]] bool handle_arrived();
     void exchange_values_in_time();
+    void keep_pulse();
     void note_flushed();
     void tell(RankRoles& roles, Outbox& out);
     void take_step(Activity activity, const Step& step);
@@ -205,8 +226,11 @@ class RankLink {
     Timeline timeline_;  ///< a row for each tracing thread, the last one for messages
     Patience patience_;
     RankRoles roles_;
+    Pulse pulse_;
+    std::vector<std::string> hosts_;  ///< by rank, once the pulse has started
     std::vector<int> owners_;
     Workers workers_{*this};
+    Rounds rounds_{*this};
     Everyone everyone_{*this};
     TracerInbox inbox_;
     SharedCache cache_;

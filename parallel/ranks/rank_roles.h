@@ -6,6 +6,7 @@
 #include "parallel/ranks/ambient_exchange.h"
 #include "parallel/ranks/collectives.h"
 #include "parallel/ranks/piece_codec.h"
+#include "parallel/ranks/pulse.h"
 #include "parallel/ranks/timeline.h"
 #include "parallel/ranks/topology.h"
 #include "parallel/work_queue/outbox.h"
@@ -20,7 +21,8 @@ struct RankSettings {
     int block = 0, stride = 0;       ///< see BlockPolicy
     std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
     EncodePiece encode = encode_piece;
-    bool rays = false;   ///< a stream of rays is traced
+    Pulse::Times pulse = {};  ///< of ranks on several machines
+    bool rays = false;        ///< a stream of rays is traced
     int projectors = 0;  ///< so many of the workers own parts of a walk's frames, at most; 0: none
 };
 

@@ -60,6 +60,8 @@ LIGHTWALK_FIELDS(Notice, m.notice)
 
 template <class Wire>
 void visit_fields(Wire&, Finish&) {}
+template <class Wire>
+void visit_fields(Wire&, Alive&) {}
 
 template <class Wire>
 void visit_fields(Wire& wire, AmbientValues& values) {
@@ -81,7 +83,7 @@ void visit_fields(Wire& wire, TracedPixelResult& pixel) {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 8;
+constexpr std::uint8_t kVersion = 9;
 
 }  // namespace
 

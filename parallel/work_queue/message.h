@@ -104,14 +104,15 @@ struct AmbientValues {
 
 /// All ranks of a group tell each other something: a rank's share to rank 0, and the result to all.
 struct Collective {
-    enum class Group : std::uint8_t { all, workers, owners };
+    /// `rounds`: the workers, and rank 0.
+    enum class Group : std::uint8_t { all, workers, owners, rounds };
     Group group = Group::all;
     std::uint32_t round = 0;             ///< of the group
     bool finished = false;               ///< whether it is the result
     std::vector<std::string> parts;      ///< a share has one; the result everyone's, by rank
     std::vector<std::uint64_t> numbers;  ///< of the result: everyone's, added up one by one
 };
-inline constexpr std::size_t kGroups = 3;
+inline constexpr std::size_t kGroups = 4;
 
 /// This rank cannot go on.
 struct Failure {
@@ -119,13 +120,15 @@ struct Failure {
 };
 /// No more work comes.
 struct Finish {};
+/// This rank is still there (see Pulse).
+struct Alive {};
 /// What a rank did, as its program writes it.
 struct Report {
     std::string payload;
 };
 /// Program to program.
 struct Notice {
-    std::variant<Failure, Finish, Report, PreparedChange> notice;
+    std::variant<Failure, Finish, Report, PreparedChange, Alive> notice;
 };
 
 using Message = std::variant<Announcement, WorkRequest, WorkGrant, WorkResult, FinishedPart,

@@ -114,6 +114,8 @@ def kills(program, options):
             if row is None:
                 continue
             row["picture"] = os.path.exists(end)
+            if row["picture"] and digest(pathlib.Path(end).read_bytes()) == truth:
+                continue  # it was whole before the rank was killed: there is nothing to resume
             more = ["--resume"] if os.path.exists(saved) else []
             output(program, stream.choice([Split("ranks", 3), Split("hybrid", 2), Split("threads", 1, 2)]), ["render", *more, *kept], ())
             row["resumed"] = "same bytes" if digest(pathlib.Path(end).read_bytes()) == truth else "OTHER BYTES"

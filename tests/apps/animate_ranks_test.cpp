@@ -91,12 +91,20 @@ TEST_CASE("animate on ranks: indirect light, found in rounds, is that of one pro
     const std::vector<std::string> words{
         "--walk", "turn", "--frames", "2",  "-ab", "1", "--deterministic", "-ad",  "64",
         "-x",     "32",   "-y",       "24", "-n",  "1", "--reuse",         "cloud"};
-    REQUIRE(walk(folder, "one", 0, words).status == 0);
-    for (const int ranks : {2, 3}) {
-        const ProgramResult result = walk(folder, "other", ranks, words);
+    const auto keeping = [&](const std::string& file, const std::string& variant) {
+        std::vector<std::string> all = words;
+        all.insert(all.end(), {"--variant", variant, "-af", folder.path(file)});
+        return all;
+    };
+    REQUIRE(walk(folder, "one", 0, keeping("one.amb", "threads")).status == 0);
+    for (const auto& [ranks, variant] : {std::pair{2, "hybrid"}, {3, "ranks"}}) {
+        CAPTURE(ranks);
+        std::filesystem::remove(folder.path("other.amb"));
+        const ProgramResult result = walk(folder, "other", ranks, keeping("other.amb", variant));
         CHECK(result.err.empty());
         REQUIRE(result.status == 0);
         check_same_frames(folder, "other", 2);
+        CHECK(read_whole(folder.path("other.amb")) == read_whole(folder.path("one.amb")));
     }
 }
 

@@ -202,3 +202,35 @@ TEST_CASE("animate: a path that stands still is refined, a budget is no error") 
     CHECK(frames[2]["traced"]["refined"] > 0);
     CHECK(frames[1]["filled"] == 0);
 }
+
+TEST_CASE("animate --resume: frames that are there stay, the others are those of the whole walk") {
+    const TemporaryFolder folder;
+    (void)folder.write("room.rad", kRoom);
+    const auto walk = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--walk", "forward", "--frames", "4", "-w-"};
+        words.insert(words.end(), more.begin(), more.end());
+        words.insert(words.end(), {"-o", folder.path(name), folder.path("room.rad")});
+        return run_program(line(words));
+    };
+    const auto frame = [&](int number) {
+        return folder.path("f" + std::to_string(number) + ".hdr");
+    };
+    REQUIRE(walk("f%d.hdr", {"--reuse", "off"}).status == 0);
+    const std::string third = pixels_of(frame(3));
+    (void)folder.write("f2.hdr", "stays");
+    std::filesystem::remove(frame(3));
+    CHECK(walk("f%d.hdr", {"--reuse", "off", "--resume"}).status == 0);
+    CHECK(read_whole(frame(2)) == "stays");
+    CHECK(pixels_of(frame(3)) == third);
+    // Frames that reuse points begin anew where some were left out.
+    std::filesystem::remove(frame(3));
+    CHECK(walk("f%d.hdr", {"--resume"}).status == 0);
+    CHECK(read_whole(frame(2)) == "stays");
+    CHECK(std::filesystem::exists(frame(3)));
+    // What all frames have in common must not depend on those that are not drawn.
+    CHECK(walk("f%d.png", {"--resume"}).status == 2);
+    CHECK(walk("f%d.png", {"--resume", "--exposure", "0"}).status == 0);
+    CHECK(walk("f.mp4", {"--resume"}).status == 2);
+    CHECK(walk("f%d.hdr", {"--checkpoint", folder.path("c")}).err.find("--resume") !=
+          std::string::npos);
+}

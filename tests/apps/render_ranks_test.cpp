@@ -4,103 +4,15 @@
 
 #include <chrono>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "tests/apps/program.h"
+#include "tests/apps/rank_runs.h"
 
 using namespace lightwalk::test;
-
-namespace {
-
-const std::string kRoom = R"(
-void plastic floor 0 0 5 .5 .4 .3 .1 .1
-void glass pane 0 0 3 .9 .9 .9
-void light lamp 0 0 3 20 20 20
-floor polygon ground 0 0 12  -9 -9 0  9 -9 0  9 9 0  -9 9 0
-floor sphere ball 0 0 4 0 0 1 1
-pane polygon window 0 0 12  -2 -3 0  2 -3 0  2 -3 3  -2 -3 3
-lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
-)";
-
-std::vector<std::string> line(const std::vector<std::string>& more) {
-    std::vector<std::string> words{"render", "-vp", "0",  "-6", "2",   "-vd", "0",   "1", "-.2",
-                                   "-x",     "90",  "-y", "60", "-vh", "45",  "-vv", "31"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-std::string pixel_bytes(const std::string& picture) {
-    const std::size_t begin = picture.find("\n\n");
-    return begin == std::string::npos ? std::string() : picture.substr(begin);
-}
-
-bool have_mpi() {
-    if (mpirun(1)) return true;
-    MESSAGE("skipped: no mpirun here");
-    return false;
-}
-
-struct Split {
-    int ranks = 1;
-    std::vector<std::string> options, mpi;
-};
-// Under AddressSanitizer it is to start that takes a rank its time; few ranks run the same code.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kMany = 4, kMore = 5;
-constexpr bool kEachWithAllOptions = false;
-#else
-constexpr int kMany = 9, kMore = 16;
-constexpr bool kEachWithAllOptions = true;
-#endif
-const std::vector<Split> kSplits{
-    {3, {"--variant", "ranks"}, {}},
-    {4, {"--variant", "ranks", "--stride", "1"}, {"--mca", "btl", "self,tcp"}},
-    {kMany, {"--variant", "ranks", "--block", "16"}, {}},
-    {kMore, {"--variant", "ranks", "--masters", "3"}, {}},
-    {1, {"-n", "2"}, {}},
-    {2, {"--variant", "hybrid", "-n", "1"}, {}},
-    {2, {"-n", "2"}, {}},
-    {4, {"-n", "2", "--masters", "2"}, {}}};
-
-// So long that a run can be killed before it ends: under AddressSanitizer a quarter of the pixels
-// takes longer than all of them elsewhere.
-#if defined(__SANITIZE_ADDRESS__)
-const std::vector<std::string> kLongRun{"-x", "450", "-y", "300", "-ps", "1"};
-const std::string kLitWidth = "300", kLitHeight = "225";
-#else
-const std::vector<std::string> kLongRun{"-x", "900", "-y", "600", "-ps", "1"};
-const std::string kLitWidth = "600", kLitHeight = "450";
-#endif
-
-/// Whether it comes true within a minute.
-bool comes_true(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return true;
-}
-
-/// Whether there is more in a checkpoint than what it begins with.
-bool holds_blocks(const std::string& checkpoint) {
-    constexpr std::uintmax_t kHeader = 4000;  // bytes
-    std::error_code none;
-    const std::uintmax_t size = std::filesystem::file_size(checkpoint, none);
-    return !none && size > kHeader;
-}
-
-std::vector<std::string> with(std::vector<std::string> words,
-                              const std::vector<std::string>& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-}  // namespace
+using namespace lightwalk::test::rank_runs;
 
 TEST_CASE("render on ranks: the bytes of one process, for every split") {
     if (!have_mpi()) return;
@@ -198,51 +110,6 @@ TEST_CASE("render on ranks: ambient values are exchanged, and kept in the file o
     CHECK(first > 0);
     CHECK(values({"--variant", "ranks", "-af", file}, 4) < first / 4);
     CHECK(values({"--variant", "hybrid", "-af", file}, 2) < first / 4);
-}
-
-TEST_CASE("render on ranks: --deterministic gives the bytes of one process with indirect light") {
-    if (!have_mpi()) return;
-    const TemporaryFolder folder;
-    const std::string scene = folder.write("room.rad", kRoom);
-    const std::vector<std::string> options{"-ps",
-                                           "1",
-                                           "-ab",
-                                           "2",
-                                           "-ad",
-                                           "32",
-                                           "-as",
-                                           "0",
-                                           "-aa",
-                                           ".3",
-                                           "-ar",
-                                           "16",
-                                           "-av",
-                                           ".01",
-                                           ".01",
-                                           ".01",
-                                           "--deterministic"};
-    const auto render = [&](const std::string& name, const std::vector<std::string>& more,
-                            const std::vector<std::string>& launcher) {
-        const std::string out = folder.path(name);
-        const ProgramResult result =
-            run_program(line(with(with(options, more), {"-o", out, scene})), "", launcher);
-        CHECK(result.err.empty());
-        CHECK(result.status == 0);
-        return pixel_bytes(read_whole(out));
-    };
-    const std::string alone = render("one.hdr", {"-n", "1"}, {});
-    CHECK(render("two.hdr", {"-n", "2"}, {}) == alone);
-    for (const Split& split : kSplits) {
-        CAPTURE(split.ranks);
-        CHECK(render("ranks.hdr", split.options, *mpirun(split.ranks, split.mpi)) == alone);
-    }
-    // Values of an ambient file, which rank 0 reads, are where all begin.
-    const std::string file = folder.path("room.amb");
-    (void)render("coarse.hdr", {"-n", "1", "-x", "20", "-y", "20", "-af", file}, {});
-    std::filesystem::copy_file(file, folder.path("again.amb"));
-    const std::string after = render("one.hdr", {"-n", "1", "-af", folder.path("again.amb")}, {});
-    CHECK(after != alone);
-    CHECK(render("ranks.hdr", {"-n", "2", "-af", file}, *mpirun(2)) == after);
 }
 
 TEST_CASE("render on ranks: what is wrong is said once, by rank 0, and nothing hangs") {
@@ -353,7 +220,7 @@ TEST_CASE("render: a run with indirect light that is killed goes on from the val
     CHECK(std::filesystem::exists(out));
     CHECK_FALSE(std::filesystem::exists(checkpoint));
     CHECK_FALSE(std::filesystem::exists(values));
-    // A deterministic run finds the same values again.
+    // A deterministic run keeps them in the checkpoint.
     (void)computed({"--deterministic", "-x", "60", "-y", "40", "--checkpoint", checkpoint});
     CHECK_FALSE(std::filesystem::exists(values));
 }

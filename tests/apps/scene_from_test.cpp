@@ -95,6 +95,49 @@ TEST_CASE("--scene-from rank0: ranks that see none of the files render the same 
     CHECK(traced.out == run_apart(trace, here, here, ray).out);
 }
 
+TEST_CASE("--scene-from rank0: ranks that have no frozen scene, another one, or not its sources") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    write_scene(folder, "here");
+    folder.write("there/nothing", "");
+    const std::string here = folder.path("here"), there = folder.path("there");
+    const std::vector<std::string> freeze{"freeze", "-w-", "--allow-commands", "-o"};
+    const auto frozen = [&](const std::string& name) {
+        std::vector<std::string> words = freeze;
+        words.insert(words.end(), {name, here + "/room.rad"});
+        REQUIRE(run_program(words).status == 0);
+    };
+    frozen(here + "/frozen");
+    std::vector<std::string> words = words_with({"--scene-from", "rank0"});
+    words.back() = "frozen";
+    const ProgramResult expected = run_apart(words, here, here);
+    CHECK(expected.err.empty());
+    CHECK(expected.status == 0);
+    REQUIRE(pixels(expected.out).size() > 1000);
+    const auto check_same = [&](const std::string& others) {
+        const ProgramResult apart = run_apart(words, here, others);
+        CHECK(apart.err.empty());
+        CHECK(apart.status == 0);
+        CHECK(pixels(apart.out) == pixels(expected.out));
+    };
+    check_same(there);  // there is none
+    std::filesystem::copy_file(here + "/frozen", there + "/frozen");
+    check_same(there);
+    folder.write("here/more.part", "white sphere more 0 0 4 1 -2 1 .5\n");
+    frozen(there + "/frozen");
+    std::filesystem::remove(here + "/more.part");
+    check_same(there);  // there is another one
+
+    // With something in addition, which rank 0 reads, too.
+    std::filesystem::remove(there + "/frozen");
+    folder.write("here/more.rad", "white sphere more 0 0 4 1 -2 1 .5\n");
+    words.push_back("more.rad");
+    const ProgramResult extended = run_apart(words, here, here);
+    CHECK(extended.status == 0);
+    CHECK(pixels(extended.out) != pixels(expected.out));
+    CHECK(pixels(run_apart(words, here, there).out) == pixels(extended.out));
+}
+
 TEST_CASE("--scene-from each: a file that differs or is missing is found and named") {
     if (!have_mpi()) return;
     const TemporaryFolder folder;
@@ -171,8 +214,10 @@ TEST_CASE("a command line that only another rank cannot understand ends the run 
     const ProgramResult result = run_program(words_with({"-bogus"}), "", line);
     CHECK(result.status != 0);
     CHECK(result.out.empty());
-    // Ranks 1 and 2 cannot; the first of them to say so may end the run before the other does.
-    const std::size_t said = std::min(result.err.find("rank 1 ("), result.err.find("rank 2 ("));
+    // Ranks 1 and 2 cannot, which is said once.
+    const std::size_t said = result.err.find("rank 1 (");
     CHECK(said < result.err.find("unknown option -bogus"));
+    CHECK(result.err.find("unknown option -bogus") == result.err.rfind("unknown option -bogus"));
     CHECK(result.err.find("unknown option -bogus") != std::string::npos);
+    CHECK(result.status == 2);
 }

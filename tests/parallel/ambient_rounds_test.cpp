@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -74,10 +75,10 @@ struct Process {
         options.height = 30;
         options.pixels.spacing = 1;
     }
-    CachePrepassResult play(Group* exchange = nullptr) {
+    CachePrepassResult play(Group* exchange = nullptr, CheckpointSink* checkpoint = nullptr) {
         return fill_ambient_cache(
             scene.tracer, camera, options, CachePrepass::deterministic, cache, executor, contexts,
-            stop, [&](const FrameProgress&) { told(); }, exchange);
+            stop, [&](const FrameProgress&) { told(); }, exchange, checkpoint);
     }
     std::vector<Rgb> picture() {
         return render_frame(scene.tracer, camera, options, executor, contexts, stop,
@@ -97,6 +98,49 @@ struct Process {
     FrameOptions options;
     StopFlag stop;
     std::function<void()> told = [] {};
+};
+
+/// Keeps the steps of rounds.
+struct KeptSteps final : CheckpointSink {
+    [[nodiscard]] std::vector<BlockPixels> known() override { return {}; }
+    void keep(const BlockPixels& /*pixels*/) override {}
+    [[nodiscard]] std::vector<std::string> known_steps(const std::string& began) override {
+        if (began == beginning) return steps;
+        beginning = began;
+        steps.clear();
+        return {};
+    }
+    void keep_step(std::string step) override { steps.push_back(std::move(step)); }
+    std::string beginning;
+    std::vector<std::string> steps;
+};
+
+/// Workers, and a listener, that fill their caches together.
+struct Together {
+    /// @param checkpoint  of the last one
+    Together(int bounces, int workers, int listeners, CheckpointSink* checkpoint)
+        : shares(static_cast<std::size_t>(workers + listeners)) {
+        const int count = workers + listeners;
+        Meeting meeting(count);
+        for (int i = 0; i < count; ++i)
+            processes.push_back(std::make_unique<Process>(bounces, i == 0 ? 2 : 1));
+        std::vector<std::thread> threads;
+        for (int i = 0; i < count; ++i) {
+            threads.emplace_back([&, i] {
+                const auto k = static_cast<std::size_t>(i);
+                MeetingExchange exchange(meeting, i < workers ? i : -1, workers, listeners);
+                shares[k] = processes[k]
+                                ->play(&exchange, i + 1 == count ? checkpoint : nullptr)
+                                .ambient.computed;
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+    }
+    [[nodiscard]] std::uint64_t computed() const {
+        return std::accumulate(shares.begin(), shares.end(), std::uint64_t{0});
+    }
+    std::vector<std::unique_ptr<Process>> processes;
+    std::vector<std::uint64_t> shares;  ///< values that each computed
 };
 
 bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
@@ -146,29 +190,70 @@ TEST_CASE("processes that do the same rounds share the work and end with the sam
         const std::uint64_t computed = one.play().ambient.computed;
         const std::vector<Rgb> picture = one.picture();
         for (const int count : {2, 3}) {
-            Meeting meeting(count);
-            std::vector<std::unique_ptr<Process>> processes;
-            std::vector<std::uint64_t> shares(static_cast<std::size_t>(count));
-            for (int i = 0; i < count; ++i)
-                processes.push_back(std::make_unique<Process>(bounces, i == 0 ? 2 : 1));
-            std::vector<std::thread> threads;
-            for (int i = 0; i < count; ++i) {
-                threads.emplace_back([&, i] {
-                    const auto k = static_cast<std::size_t>(i);
-                    MeetingExchange exchange(meeting, i, count);
-                    shares[k] = processes[k]->play(&exchange).ambient.computed;
-                });
-            }
-            for (std::thread& thread : threads) thread.join();
-            std::uint64_t sum = 0;
-            for (const std::uint64_t share : shares) {
-                CHECK(share < computed);
-                sum += share;
-            }
-            CHECK(sum == computed);
-            for (const auto& process : processes) CHECK(same_bytes(process->picture(), picture));
+            const Together all(bounces, count, 0, nullptr);
+            for (const std::uint64_t share : all.shares) CHECK(share < computed);
+            CHECK(all.computed() == computed);
+            for (const auto& process : all.processes)
+                CHECK(same_bytes(process->picture(), picture));
         }
     }
+}
+
+TEST_CASE("who takes part in rounds but computes nothing ends with the same cache, too") {
+    Process one(2, 1);
+    const std::uint64_t computed = one.play().ambient.computed;
+    for (const int workers : {1, 2}) {
+        const Together all(2, workers, 1, nullptr);
+        CHECK(all.shares.back() == 0);
+        CHECK(all.computed() == computed);
+        CHECK(same_bytes(all.processes.back()->picture(), one.picture()));
+    }
+}
+
+TEST_CASE("rounds that a checkpoint has kept are not computed again, whoever goes on") {
+    Process whole(2, 1);
+    KeptSteps kept;
+    const std::uint64_t computed = whole.play(nullptr, &kept).ambient.computed;
+    const std::vector<Rgb> picture = whole.picture();
+    REQUIRE(kept.steps.size() > 20);
+    KeptSteps half = kept;
+    half.steps.resize(kept.steps.size() / 2);  // killed there
+    {
+        Process again(2, 1);
+        KeptSteps steps = half;
+        const std::uint64_t rest = again.play(nullptr, &steps).ambient.computed;
+        CHECK(rest > 0);
+        CHECK(rest < computed);
+        CHECK(steps.steps.size() == kept.steps.size());
+        CHECK(same_bytes(again.picture(), picture));
+    }
+    for (const int listeners : {0, 1}) {  // the checkpoint is of who listens, or of a worker
+        KeptSteps steps = half;
+        const Together all(2, 2, listeners, &steps);
+        CHECK(all.computed() < computed);
+        for (const auto& process : all.processes) CHECK(same_bytes(process->picture(), picture));
+        KeptSteps of_all = kept;
+        CHECK(Together(2, 2, listeners, &of_all).computed() == 0);
+        CHECK(of_all.steps.size() == kept.steps.size());
+    }
+}
+
+TEST_CASE("rounds that began with another cache are not gone on with") {
+    KeptSteps kept;
+    Process first(1, 1);
+    (void)first.play(nullptr, &kept);
+    KeptSteps of_other = kept;
+    Process other(1, 1), same(1, 1);
+    for (Process* process : {&other, &same}) {
+        AmbientRecord record;
+        record.radius = {.05f, .05f};
+        record.value = {1, 1, 1};
+        process->shared.insert(record);
+    }
+    (void)other.play(nullptr, &of_other);
+    CHECK(of_other.beginning != kept.beginning);
+    CHECK(same.play(nullptr, &of_other).ambient.computed == 0);
+    CHECK(same_bytes(same.picture(), other.picture()));
 }
 
 TEST_CASE("a stop that one process wants stops all") {

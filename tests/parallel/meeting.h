@@ -41,17 +41,20 @@ class Meeting {
 
 class MeetingExchange final : public Group {
   public:
-    MeetingExchange(Meeting& meeting, int index, int count)
-        : meeting_(meeting), index_(index), count_(count) {}
+    /// @param listeners  0 or 1: those whose index is -1, who come last
+    MeetingExchange(Meeting& meeting, int index, int count, int listeners = 0)
+        : meeting_(meeting), index_(index), count_(count), listeners_(listeners) {}
     [[nodiscard]] int index() const override { return index_; }
     [[nodiscard]] int size() const override { return count_; }
+    [[nodiscard]] int parts() const override { return count_ + listeners_; }
     [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
-        return meeting_.all_gather(static_cast<std::size_t>(index_), std::move(mine));
+        const int place = index_ < 0 ? count_ : index_;
+        return meeting_.all_gather(static_cast<std::size_t>(place), std::move(mine));
     }
 
   private:
     Meeting& meeting_;
-    int index_, count_;
+    int index_, count_, listeners_;
 };
 
 }  // namespace lightwalk::test

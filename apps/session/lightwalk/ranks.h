@@ -27,7 +27,7 @@ class Scene;
 
 /// Who reads a scene's files.
 enum class SceneFrom {
-    shared,  ///< rank 0 alone where all are on one machine, and they share its memory; else each
+    shared,  ///< one rank of each machine, whose memory the others share
     each,    ///< every rank its own copy of them
     rank0,   ///< rank 0 alone, for all
 };

@@ -16,6 +16,10 @@
 #include "parallel/comm/communicator.h"
 #include "parallel/comm/mpi_module.h"
 
+/// What Open MPI's MPI_Abort does once it has said so in eight lines, which would stand below the
+/// one that tells what is wrong. Null: it is not there, or not Open MPI.
+extern "C" __attribute__((weak)) int ompi_mpi_abort(MPI_Comm communicator, int status);
+
 namespace lightwalk {
 namespace {
 
@@ -46,6 +50,7 @@ class MpiCommunicator final : public Communicator {
         check(MPI_Comm_size(machine, &here), "MPI_Comm_size");
         check(MPI_Allreduce(&here, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD), "MPI_Allreduce");
         one_machine_ = least == size_;
+        check(MPI_Allreduce(&rank_, &first_here_, 1, MPI_INT, MPI_MIN, machine), "MPI_Allreduce");
         check(MPI_Comm_free(&machine), "MPI_Comm_free");
     }
     ~MpiCommunicator() override { MPI_Finalize(); }
@@ -60,6 +65,7 @@ class MpiCommunicator final : public Communicator {
     }
 
     [[nodiscard]] bool on_one_machine() const override { return one_machine_; }
+    [[nodiscard]] int first_on_machine() const override { return first_here_; }
 
     void send(int to, std::string bytes) override {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -122,6 +128,7 @@ class MpiCommunicator final : public Communicator {
     }
 
     [[noreturn]] void abort(int status) override {
+        if (ompi_mpi_abort != nullptr) ompi_mpi_abort(MPI_COMM_WORLD, status);
         MPI_Abort(MPI_COMM_WORLD, status);
         std::_Exit(status);
     }
@@ -155,6 +162,7 @@ class MpiCommunicator final : public Communicator {
     }
 
     int rank_ = 0, size_ = 1;
+    int first_here_ = 0;
     bool one_machine_ = true;
     std::list<Sent> sent_;  ///< the bytes must stay where they are
     std::mutex mutex_;      ///< guards woken_

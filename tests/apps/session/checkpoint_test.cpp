@@ -72,6 +72,29 @@ TEST_CASE(
     CHECK(files.warnings.messages.empty());
 }
 
+TEST_CASE("checkpoint: steps of rounds are known where these began alike") {
+    Files files;
+    const auto steps_of = [&](int frame, const std::string& beginning,
+                              const std::vector<std::string>& more) {
+        const auto checkpoint = files.open();
+        const auto picture = checkpoint->picture(frame, kWhole);
+        picture->keep(block_at({0, 0, 8, 8}));
+        std::vector<std::string> known = picture->known_steps(beginning);
+        for (const std::string& step : more) picture->keep_step(step);
+        return known;
+    };
+    using Steps = std::vector<std::string>;
+    CHECK(steps_of(1, "empty", {"one", "two"}).empty());
+    CHECK(steps_of(2, "empty", {"other"}).empty());
+    CHECK(steps_of(1, "empty", {"three"}) == Steps{"one", "two"});
+    CHECK(steps_of(1, "empty", {}) == Steps{"one", "two", "three"});
+    CHECK(steps_of(1, "not empty", {"1"}).empty());
+    CHECK(steps_of(1, "not empty", {}) == Steps{"1"});
+    CHECK(steps_of(1, "empty", {}).empty());
+    CHECK(steps_of(2, "empty", {}) == Steps{"other"});
+    CHECK(files.open()->picture(1, kWhole)->known().size() == 1);
+}
+
 TEST_CASE("checkpoint: runs that are continued more than once add to what is known") {
     Files files;
     files.keep(0, {block_at({0, 0, 8, 8})});

@@ -38,9 +38,10 @@ AmbientRecord record(int level, float x) {
 
 /// A run: its cache, and the file before it.
 struct Run {
-    Run(const std::string& path, const RenderOptions& options)
+    Run(const std::string& path, const RenderOptions& options,
+        OthersValues others = OthersValues::taken)
         : cache(ambient_limits({}, 1, options.ambient_accuracy, options.ambient_resolution)),
-          store(path, options, cache, warnings) {}
+          store(path, options, cache, warnings, others) {}
     [[nodiscard]] std::uint64_t values() const { return cache.log_mean().count; }
     void insert(const AmbientRecord& record) {
         cache.insert(record);
@@ -97,6 +98,23 @@ TEST_CASE("ambient files of other options: what a run adds means the same under 
     CHECK(file.records[0].level == 1);
     CHECK(file.records[1].level == 0);
     CHECK(file.records[1].position[0] == 0.75f);
+}
+
+TEST_CASE(
+    "ambient files of two runs at once: each adds its values, and takes the other's, or none") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("a.amb");
+    Run takes(path, options_of(2, 0.2));
+    Run leaves(path, options_of(2, 0.2), OthersValues::left);
+    takes.insert(record(0, 0.125f));
+    leaves.insert(record(0, 0.25f));
+    takes.insert(record(0, 0.5f));
+    leaves.insert(record(0, 0.75f));
+    CHECK(takes.values() == 3);  // two, and the one that was there when it stored the second
+    CHECK(leaves.values() == 2);
+    const AmbientFile file = decode_ambient_file(read_file(path), path);
+    CHECK(file.records.size() == 4);
+    CHECK(Run(path, options_of(2, 0.2), OthersValues::left).values() == 4);
 }
 
 TEST_CASE("ambient files that cannot be read are refused and stay as they are") {

@@ -235,11 +235,38 @@ class DeadCommunicator final : public Communicator {
     [[nodiscard]] int size() const override { return wire_->size(); }
     [[nodiscard]] std::string host() const override { return wire_->host(); }
     [[nodiscard]] bool on_one_machine() const override { return true; }
+    [[nodiscard]] int first_on_machine() const override { return 0; }
     void send(int, std::string) override {}
     [[nodiscard]] std::optional<Packet> receive() override {
         (void)wire_->receive();  // throws when another rank has aborted
         return std::nullopt;
     }
+    void wait(std::chrono::microseconds most) override { wire_->wait(most); }
+    void wake() override { wire_->wake(); }
+    [[nodiscard]] std::string broadcast(std::string bytes) override {
+        return wire_->broadcast(std::move(bytes));
+    }
+    void flush() override {}
+    [[noreturn]] void abort(int status) override {
+        wire_->abort(status);
+        std::terminate();
+    }
+
+  private:
+    std::unique_ptr<Communicator> wire_;
+};
+
+/// Every rank has a machine of its own.
+class FarCommunicator final : public Communicator {
+  public:
+    explicit FarCommunicator(std::unique_ptr<Communicator> wire) : wire_(std::move(wire)) {}
+    [[nodiscard]] int rank() const override { return wire_->rank(); }
+    [[nodiscard]] int size() const override { return wire_->size(); }
+    [[nodiscard]] std::string host() const override { return wire_->host(); }
+    [[nodiscard]] bool on_one_machine() const override { return false; }
+    [[nodiscard]] int first_on_machine() const override { return rank(); }
+    void send(int to, std::string bytes) override { wire_->send(to, std::move(bytes)); }
+    [[nodiscard]] std::optional<Packet> receive() override { return wire_->receive(); }
     void wait(std::chrono::microseconds most) override { wire_->wait(most); }
     void wake() override { wire_->wake(); }
     [[nodiscard]] std::string broadcast(std::string bytes) override {
@@ -272,6 +299,35 @@ TEST_CASE("rank link: where rank 0 does not answer, the rank that fails ends the
     });
     CHECK(seconds < 2);
     CHECK(outcome.failures == std::vector<std::string>{"test: rank 2 (memory): lost"});
+    CHECK(outcome.problems == std::vector<std::string>(3, "aborted"));
+}
+
+TEST_CASE("rank link: on several machines a rank that is not heard of any more ends the run") {
+    Wires wires = make_memory_communicators(3);
+    for (auto& wire : wires) wire = std::make_unique<FarCommunicator>(std::move(wire));
+    RankSettings settings;
+    settings.pulse = {std::chrono::milliseconds(10), std::chrono::milliseconds(300)};
+    std::atomic<bool> over{false};
+    const RankOutcome outcome = run_ranks(
+        make_topology(Variant::hybrid, 3, false, 1), settings,
+        [&](RankLink& link) {
+            link.agree({}, "");
+            (void)link.all_gather(Collective::Group::all, "");
+            if (link.rank() == 2) {  // the thread that serves its messages is busy for ever
+                link.post(Activity::handle, [&](RankRoles&, Outbox&) {
+                    while (!over) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                });
+            }
+            try {
+                (void)link.all_gather(Collective::Group::all, "");
+            } catch (const Aborted&) {
+                over = true;
+                throw;
+            }
+        },
+        std::move(wires));
+    REQUIRE_FALSE(outcome.failures.empty());
+    CHECK(outcome.failures[0].find("nothing has been heard of it") != std::string::npos);
     CHECK(outcome.problems == std::vector<std::string>(3, "aborted"));
 }
 
@@ -395,6 +451,12 @@ TEST_CASE("rank link: ranks that trace gather among themselves, while the others
                    link.workers().all_reduce({own, 1}) == std::vector<std::uint64_t>{2 + 3 + 4, 3};
             CHECK(link.workers().size() == 3);
             CHECK(link.workers().index() == link.rank() - 2);
+        }
+        // Rank 0 hears what comes of their rounds.
+        if (link.traces() || link.leads()) {
+            CHECK(link.rounds().index() == (link.leads() ? -1 : link.rank() - 2));
+            same = same && link.rounds().all_gather(std::to_string(link.rank())) ==
+                               std::vector<std::string>{"2", "3", "4", "0"};
         }
         good += same ? 1 : 0;
     });

@@ -79,6 +79,7 @@ class DelayingCommunicator final : public Communicator {
     [[nodiscard]] int size() const override { return wire_->size(); }
     [[nodiscard]] std::string host() const override { return wire_->host(); }
     [[nodiscard]] bool on_one_machine() const override { return one_machine_; }
+    [[nodiscard]] int first_on_machine() const override { return one_machine_ ? 0 : rank(); }
     void send(int to, std::string bytes) override { wire_->send(to, std::move(bytes)); }
     [[nodiscard]] std::optional<Packet> receive() override {
         while (std::optional<Packet> packet = wire_->receive())

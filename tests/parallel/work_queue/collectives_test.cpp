@@ -11,6 +11,8 @@ TEST_CASE("a group's shares come together in the order of its ranks, and are add
     Collectives collectives(topology, 2);
     CHECK(collectives.members(Collective::Group::all).size() == 4);
     CHECK(collectives.members(Collective::Group::owners) == std::vector<int>{1, 2});
+    CHECK(collectives.members(Collective::Group::workers) == std::vector<int>{1, 2, 3});
+    CHECK(collectives.members(Collective::Group::rounds) == std::vector<int>{0, 1, 2, 3});
     Outbox out;
     const auto share = [&](int rank, std::uint32_t round, std::vector<std::string> parts) {
         collectives.handle(rank,

@@ -1,0 +1,161 @@
+// --deterministic: the same values, by any division, also beside other runs and after a crash.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/rank_runs.h"
+
+using namespace lightwalk::test;
+using namespace lightwalk::test::rank_runs;
+
+TEST_CASE("render on ranks: --deterministic gives the bytes of one process with indirect light") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::vector<std::string>& options = kRoundsRun;
+    const auto render = [&](const std::string& name, const std::vector<std::string>& more,
+                            const std::vector<std::string>& launcher) {
+        const std::string out = folder.path(name);
+        const ProgramResult result =
+            run_program(line(with(with(options, more), {"-o", out, scene})), "", launcher);
+        CHECK(result.err.empty());
+        CHECK(result.status == 0);
+        return pixel_bytes(read_whole(out));
+    };
+    const std::string alone = render("one.hdr", {"-n", "1"}, {});
+    CHECK(render("two.hdr", {"-n", "2"}, {}) == alone);
+    for (const Split& split : kSplits) {
+        CAPTURE(split.ranks);
+        CHECK(render("ranks.hdr", split.options, *mpirun(split.ranks, split.mpi)) == alone);
+    }
+    // Values of an ambient file, which rank 0 reads, are where all begin.
+    const std::string file = folder.path("room.amb");
+    (void)render("coarse.hdr", {"-n", "1", "-x", "20", "-y", "20", "-af", file}, {});
+    std::filesystem::copy_file(file, folder.path("again.amb"));
+    const std::string after = render("one.hdr", {"-n", "1", "-af", folder.path("again.amb")}, {});
+    CHECK(after != alone);
+    CHECK(render("ranks.hdr", {"-n", "2", "-af", file}, *mpirun(2)) == after);
+}
+
+TEST_CASE(
+    "render on ranks: what --deterministic computes is kept in an ambient file by any split") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const auto words = [&](const std::string& name, const std::vector<std::string>& more) {
+        return line(with(with(kRoundsRun, more), {"-af", folder.path(name + ".amb"), "-o",
+                                                  folder.path(name + ".hdr"), scene}));
+    };
+    REQUIRE(run_program(words("one", {"-n", "1"})).status == 0);
+    const std::string values = read_whole(folder.path("one.amb"));
+    const std::string picture = pixel_bytes(read_whole(folder.path("one.hdr")));
+    CHECK(values.size() > 10000);
+    for (const Split& split : kSplits) {
+        CAPTURE(split.ranks);
+        std::filesystem::remove(folder.path("ranks.amb"));
+        const ProgramResult result =
+            run_program(words("ranks", split.options), "", *mpirun(split.ranks, split.mpi));
+        CHECK(result.err.empty());
+        REQUIRE(result.status == 0);
+        CHECK(read_whole(folder.path("ranks.amb")) == values);
+        CHECK(pixel_bytes(read_whole(folder.path("ranks.hdr"))) == picture);
+    }
+}
+
+TEST_CASE("render on ranks: deterministic runs that share an ambient file leave each other alone") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string file = folder.path("shared.amb");
+    const auto words = [&](const std::string& out, const std::vector<std::string>& more) {
+        return line(with(with(kRoundsRun, more), {"-o", folder.path(out), scene}));
+    };
+    REQUIRE(run_program(words("alone.hdr", {})).status == 0);
+    const std::string alone = pixel_bytes(read_whole(folder.path("alone.hdr")));
+    // The other one adds its values while this one is between two rounds.
+    (void)folder.write("shared.amb", "");
+    const std::vector<std::string> shares{"-n", "1", "-af", file};
+    RunningProgram first(words("first.hdr", shares), *mpirun(2));
+    RunningProgram second(words("second.hdr", shares), *mpirun(2));
+    RunningProgram third(words("third.hdr", shares));
+    for (RunningProgram* program : {&first, &second, &third}) {
+        const ProgramResult result = program->finish();
+        CHECK(result.err.empty());
+        CHECK(result.status == 0);
+    }
+    // Who found the file empty has drawn the picture of a run by itself; another one may have begun
+    // later. None has what came while it ran.
+    int same = 0;
+    for (const char* out : {"first.hdr", "second.hdr", "third.hdr"})
+        same += pixel_bytes(read_whole(folder.path(out))) == alone ? 1 : 0;
+    CHECK(same > 0);
+}
+
+TEST_CASE("render: a deterministic run that is killed goes on with its rounds, with any split") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string checkpoint = folder.path("blocks"), out = folder.path("out.hdr");
+    const std::string stats = folder.path("stats.json");
+    const std::vector<std::string> light{
+        "-x",  kLitWidth, "-y",      kLitHeight, "-ps", "1",  "-ab", "2",
+        "-ad", "256",     "-as",     "0",        "-aa", ".1", "-w-", "--deterministic",
+        "-o",  out,       "--stats", stats,      scene};
+    const auto computed = [&](const std::vector<std::string>& more,
+                              const std::vector<std::string>& launcher = {}) {
+        const ProgramResult result = run_program(line(with(more, light)), "", launcher);
+        CHECK(result.status == 0);
+        CHECK(result.err.empty());
+        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+    };
+    const int whole = computed({});
+    const std::string expected = pixel_bytes(read_whole(out));
+    std::filesystem::remove(out);
+    {
+        RunningProgram program(line(with({"-n", "1", "--checkpoint", checkpoint}, light)));
+        REQUIRE(comes_true([&] { return holds_blocks(checkpoint, 200000); }));
+    }  // killed
+    REQUIRE_FALSE(std::filesystem::exists(out));
+    const std::string kept = read_whole(checkpoint);
+    const std::vector<std::string> resumed{"--checkpoint", checkpoint, "--resume"};
+    CHECK(computed(resumed) < whole);
+    CHECK(pixel_bytes(read_whole(out)) == expected);
+    CHECK_FALSE(std::filesystem::exists(checkpoint));
+    if (!mpirun(1)) return;
+    for (const Split& split : {kSplits[0], kSplits[6]}) {
+        CAPTURE(split.ranks);
+        (void)folder.write("blocks", kept);
+        CHECK(computed(with(resumed, split.options), *mpirun(split.ranks)) < whole);
+        CHECK(pixel_bytes(read_whole(out)) == expected);
+    }
+}
+
+TEST_CASE("render: of a deterministic sequence that goes on, pictures begin with the same values") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string views = "rview -vp 0 -6 2\nrview -vp 1 -6 2 -vd -.1 1 -.2\n";
+    const std::string checkpoint = folder.path("blocks");
+    const auto words = [&](const std::string& name, const std::vector<std::string>& more) {
+        return line(
+            with(with(kRoundsRun, more), {"-S", "1", "-o", folder.path(name + "%d.hdr"), scene}));
+    };
+    // A run that has drawn the first one, and not all of the second one.
+    {
+        RunningProgram program(
+            words("part", {"-n", "1", "--checkpoint", checkpoint, "-x", "360", "-y", "240"}));
+        program.send(views);
+        program.end_input();
+        REQUIRE(comes_true([&] { return std::filesystem::exists(folder.path("part1.hdr")); }));
+    }
+    if (std::filesystem::exists(folder.path("part2.hdr"))) return;  // it was quicker
+    REQUIRE(run_program(words("large", {"-x", "360", "-y", "240"}), views).status == 0);
+    CHECK(run_program(
+              words("part", {"--checkpoint", checkpoint, "--resume", "-x", "360", "-y", "240"}),
+              views)
+              .status == 0);
+    for (const char* number : {"1", "2"})
+        CHECK(pixel_bytes(read_whole(folder.path("part" + std::string(number) + ".hdr"))) ==
+              pixel_bytes(read_whole(folder.path("large" + std::string(number) + ".hdr"))));
+}
