@@ -5,12 +5,14 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "apps/common_options.h"
 #include "apps/session/lightwalk/renderer.h"
 #include "apps/session/lightwalk/scene.h"
+#include "io/picture/picture.h"
 
 namespace lightwalk {
 
@@ -61,6 +63,13 @@ void take_options(Command& command, const Words& words) {
     check_render_settings(command.common.settings);
     command.common.request.options.stop = nullptr;  // an interrupt ends the call, not all of them
 }
+
+[[nodiscard]] inline std::tuple<double, double, double> triple(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The pixels of an array of three floats each, rows from the top. Throws InputError for others.
+[[nodiscard]] Picture picture_of(const pybind11::buffer& pixels, int width, int height);
 
 // Parts of the module.
 void bind_arrays(pybind11::module_& module);

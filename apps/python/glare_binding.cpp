@@ -14,24 +14,11 @@ namespace {
 
 GlareReport glare(const py::buffer& pixels, int width, int height, const std::string& view_string,
                   const GlareParams& params) {
-    const py::buffer_info info = pixels.request();
-    const auto count = static_cast<py::ssize_t>(width) * height;
-    if (width < 1 || height < 1 || info.format != "f" || info.size != 3 * count ||
-        !PyBuffer_IsContiguous(info.view(), 'C'))
-        throw InputError("expected three floats a pixel, in rows");
-    const auto* const first = static_cast<const float*>(info.ptr);
-    std::vector<Rgb> colors;
-    colors.reserve(static_cast<std::size_t>(count));
-    for (py::ssize_t i = 0; i < count; ++i)
-        colors.emplace_back(first[3 * i], first[3 * i + 1], first[3 * i + 2]);
+    const Picture picture = picture_of(pixels, width, height);
     View view;
     parse_view_string(view_string, view);
     const py::gil_scoped_release unlocked;
-    return analyse_glare({width, height, colors}, view, params);
-}
-
-py::tuple triple(const Vec3& v) {
-    return py::make_tuple(v.x, v.y, v.z);
+    return analyse_glare({width, height, picture.pixels}, view, params);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "apps/session/render_backend.h"
 #include "io/options/view_options.h"
 #include "io/options/view_text.h"
-#include "io/picture/picture.h"
 #include "io/picture/tone.h"
 
 namespace py = pybind11;
@@ -117,7 +116,16 @@ class PictureMaker {
     std::optional<Renderer> renderer_;
 };
 
-/// Three floats a pixel.
+void save(const std::string& path, const py::buffer& pixels, int width, int height,
+          const Words& header) {
+    const Picture picture = picture_of(pixels, width, height);
+    const py::gil_scoped_release unlocked;
+    check_picture_name(path);
+    write_picture(path, picture, {header}, {});
+}
+
+}  // namespace
+
 Picture picture_of(const py::buffer& pixels, int width, int height) {
     const py::buffer_info info = pixels.request();
     const auto count = static_cast<py::ssize_t>(width) * height;
@@ -131,16 +139,6 @@ Picture picture_of(const py::buffer& pixels, int width, int height) {
         picture.pixels.emplace_back(first[3 * i], first[3 * i + 1], first[3 * i + 2]);
     return picture;
 }
-
-void save(const std::string& path, const py::buffer& pixels, int width, int height,
-          const Words& header) {
-    const Picture picture = picture_of(pixels, width, height);
-    const py::gil_scoped_release unlocked;
-    check_picture_name(path);
-    write_picture(path, picture, {header}, {});
-}
-
-}  // namespace
 
 void bind_pictures(py::module_& module) {
     py::class_<PythonPicture>(module, "Picture")

@@ -10,12 +10,6 @@ namespace py = pybind11;
 namespace lightwalk {
 namespace {
 
-using Triple = std::tuple<double, double, double>;
-
-Triple triple(const Vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 std::unique_ptr<PythonScene> load(const SceneSource& source) {
     const auto warnings = std::make_shared<KeptWarnings>();
     std::optional<LoadedScene> scene;

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import pathlib
 from typing import Any
 
 import numpy as np
@@ -107,9 +106,3 @@ def glare(radiance: Any, view: ViewLike, threshold: float = 2000) -> Glare:
     report = _core.glare(array, array.shape[1], array.shape[0], text, float(threshold))
     return Glare(report.dgp, report.low_light_correction, report.within_assessments, report.vertical_illuminance, report.average_luminance,
                  tuple(report.sources))
-
-
-def demo_scene(night: bool = False) -> list[pathlib.Path]:
-    """The files of the demonstration scene, a lodge in the mountains: Scene.from_files(*demo_scene())."""
-    folder = pathlib.Path(__file__).parent / "share" / "lightwalk" / "scenes" / "lodge"
-    return [folder / "lodge.rad", folder / ("night.rad" if night else "day.rad")]

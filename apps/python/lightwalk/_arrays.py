@@ -27,7 +27,7 @@ def numbers(what: str, value: Any, columns: int | None = None, finite: bool = Tr
                 raise InputError(f"{what}: expected an array of numbers, found {array.dtype}")
             if array.size > _MOST:
                 raise InputError(f"{what}: more than {_MOST} numbers")
-            array = np.ascontiguousarray(array, dtype=dtype)
+            array = np.asarray(array, dtype=dtype, order="C")
     except InputError:
         raise
     except MemoryError:

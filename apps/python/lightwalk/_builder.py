@@ -32,27 +32,34 @@ def _word(what: str, value: Any) -> str:
     return value
 
 
-def _shell_word(word: str) -> str:
+def _shell_word(value: Any) -> str:
     """In quotes, where the scene language's commands need them."""
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
+        return str(int(value))
+    word = value if isinstance(value, str) else number_word(_number("generator", value))
     if not word or re.search(r"[\x00-\x1f\x7f]", word):
         raise InputError(f"generator: expected words without control characters, found {word[:60]!r}")
     return word if re.fullmatch(r"[\w@%+=:,./^-]+", word) else "'" + word.replace("'", "'\\''") + "'"
 
 
-def _channels(what: str, value: Any) -> list[float]:
+class _Values(list):  # type: ignore[type-arg]
+    """Numbers that were looked at."""
+
+
+def _channels(what: str, value: Any) -> _Values:
     array = _arrays.numbers(what, value)
     if array.ndim == 0:
-        return [float(array)] * 3
+        return _Values([float(array)] * 3)
     if array.shape != (3,):
         raise InputError(f"{what}: expected a number or three, red, green and blue")
-    return array.tolist()
+    return _Values(array.tolist())
 
 
-def _vector(what: str, value: Any) -> list[float]:
+def _vector(what: str, value: Any) -> _Values:
     array = _arrays.numbers(what, value)
     if array.shape != (3,):
         raise InputError(f"{what}: expected x, y and z")
-    return array.tolist()
+    return _Values(array.tolist())
 
 
 def _number(what: str, value: Any) -> float:
@@ -158,7 +165,7 @@ class Builder:
     def _material(self, type: str, name: str, modifier: str, *numbers: Any) -> str:
         flat: list[float] = []
         for number in numbers:
-            flat += number if isinstance(number, list) else [_number(name, number)]
+            flat += number if isinstance(number, _Values) else [_number(name, number)]
         return self.primitive(type, name, modifier, (), flat)
 
     # Surfaces.
@@ -225,8 +232,7 @@ class Builder:
     def generate(self, *words: Any) -> None:
         """What a generator of scenes writes: generate("gensky", 6, 21, 12, "-a", 51.5). Those of Radiance are built in; others need
         allow_commands."""
-        self._add("!" + " ".join(_shell_word(word if isinstance(word, str) else number_word(_number("generator", word)))
-                                 for word in words) + "\n")
+        self._add("!" + " ".join(map(_shell_word, words)) + "\n")
 
     def include(self, file: Any, *transform: Any) -> None:
         """A scene file, a luminaire (.ies, .ldt), an object (.obj, .gltf), transformed as by xform: include("chair.rad", "-t", 1, 2, 0)."""

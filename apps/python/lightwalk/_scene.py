@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import pathlib
 import re
 import threading
 import warnings
@@ -17,6 +18,8 @@ from ._errors import InputError, LightwalkWarning, OptionError
 from ._options import words_of
 from ._view import ViewLike, view_words
 from .bin import _core
+
+SHARE = pathlib.Path(__file__).parent / "share" / "lightwalk"  # what the package installs
 
 Size = Union[int, Sequence[int]]
 Progress = Union[Callable[[float], Any], bool, None]
@@ -82,7 +85,7 @@ class Scene(Builder):
     Ctrl-C.
 
     Args:
-        library: folders of function files and the like; None: those of the environment variable RAYPATH
+        library: folders of function files and the like, before Lightwalk's own; None: those of the environment variable RAYPATH
         allow_commands: run commands in scene files that no built-in one replaces
         threads: that compile the scene; 0: one for each processor
     """
@@ -93,7 +96,8 @@ class Scene(Builder):
         source.name = TEXT_NAME
         source.allow_commands = bool(allow_commands)
         source.threads = _count("threads", threads, 0, 4096)
-        source.library = [_file(folder) for folder in _arrays.few("library", () if library is None else library, 1000)]
+        if library is not None:
+            source.library = [*(_file(folder) for folder in _arrays.few("library", library, 1000)), str(SHARE / "lib")]
         self._source = source
         self._lock = threading.Lock()
         self._loaded: Any = None
@@ -314,6 +318,19 @@ class Scene(Builder):
         """
         from ._walk import start_walk
         return start_walk(self, views, port, height, embed, options)
+
+
+DEMO_FOLDER = SHARE / "scenes" / "lodge"
+
+
+def demo_scene(night: bool = False) -> Scene:
+    """The demonstration scene, a lodge in the mountains, by day or in the evening."""
+    return Scene.from_files(DEMO_FOLDER / "lodge.rad", DEMO_FOLDER / ("night.rad" if night else "day.rad"), library=[DEMO_FOLDER])
+
+
+def demo_views() -> dict[str, pathlib.Path]:
+    """The views of the demonstration scene by their names, which `render` takes: demo_scene().render(demo_views()["living"])."""
+    return {file.stem: file for file in sorted((DEMO_FOLDER / "views").glob("*.vf")) if file.stem != "walk"}
 
 
 def save_picture(file: Any, radiance: Any, *, view: ViewLike = None, header: Iterable[str] = ()) -> None:
