@@ -334,8 +334,8 @@ void settle_spacing(RenderCommand& command, WarningSink& warnings) {
     }
     pixels.share_samples = !command.output.denoise;  // noise differs from pixel to pixel then
     const bool reuses = reuses_frames(command);
-    const bool sampled = pixels.samples > 1 || command.common.request.options.goal.given() ||
-                         command.output.denoise;
+    const bool sampled =
+        pixels.samples > 1 || command.common.request.options.goal.given() || command.output.denoise;
     if (pixels.spacing == 1 || (!reuses && !sampled)) return;
     if (command.spacing_given)
         warnings.warn(reuses ? "-ps ignored: every pixel that is not reused is traced"

@@ -192,7 +192,8 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
          "address that the page is served on. 127.0.0.1: to this machine alone. Anything else "
          "demands the token in the printed address"},
         {"--embed ORIGINS", embedders_option(serve.server.embedders),
-         "pages that may show this one within them, a notebook's say, by their origins, in one word "
+         "pages that may show this one within them, a notebook's say, by their origins, in one "
+         "word "
          "with spaces between them: \"http://localhost:* http://127.0.0.1:*\""},
         {"--clients N", &serve.server.limits.clients,
          "number of browsers at once: the first drives, others watch",

@@ -1,5 +1,6 @@
-// The module lightwalk.bin._core: what the Python package `lightwalk` is made of. Its functions take
-// the words of command lines and plain buffers; the package gives them names, arrays and docstrings.
+// The module lightwalk.bin._core: what the Python package `lightwalk` is made of. Its functions
+// take the words of command lines and plain buffers; the package gives them names, arrays and
+// docstrings.
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
@@ -17,7 +18,8 @@ void bind_array(py::module_& module, const char* name) {
     py::class_<NumberArray<Number>>(module, name, py::buffer_protocol())
         .def("__len__", [](const NumberArray<Number>& array) { return array.numbers.size(); })
         .def_buffer([](NumberArray<Number>& array) {
-            return py::buffer_info(array.numbers.data(), static_cast<py::ssize_t>(array.numbers.size()));
+            return py::buffer_info(array.numbers.data(),
+                                   static_cast<py::ssize_t>(array.numbers.size()));
         });
 }
 

@@ -80,7 +80,9 @@ class PictureMaker {
     /// The view that the command line tells.
     PythonPicture make() { return make_view(command_.view); }
     /// A change of that view.
-    PythonPicture make_changed(const Words& view) { return make_view(view_of(view, command_.view)); }
+    PythonPicture make_changed(const Words& view) {
+        return make_view(view_of(view, command_.view));
+    }
     /// How many frames the command line's path has.
     [[nodiscard]] std::size_t path_length() const { return views_.size(); }
     PythonPicture make_frame(std::size_t number) { return make_view(views_.at(number)); }

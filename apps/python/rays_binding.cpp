@@ -171,8 +171,7 @@ std::pair<PythonContributions, Words> contrib(const PythonScene& scene, const Wo
     KeptWarnings warnings;
     const std::vector<TrackedModifier> tracked = tracked_modifiers(command);
     settle_contrib_command(command, tracked, warnings);
-    for (const std::string& name :
-         missing_modifiers(scene.scene.compiled()->scene(), tracked))
+    for (const std::string& name : missing_modifiers(scene.scene.compiled()->scene(), tracked))
         throw InputError("the scene has no modifier \"" + name + '"');
     ProgressTeller teller(std::move(listener));
     RendererOptions options = renderer_options(command.common);

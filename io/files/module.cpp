@@ -23,10 +23,10 @@ void* load_from_module(const char* file, const char* symbol, std::string& error)
     const std::filesystem::path here =
         std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
     const std::filesystem::path own = own_folder();
-    for (const std::filesystem::path& folder :
-         {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk", own / "lightwalk", own.is_absolute() ? own : here,
+    for (const std::filesystem::path& folder : {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk",
+                                                own / "lightwalk", own.is_absolute() ? own : here,
 #ifdef LIGHTWALK_MODULE_DIR
-          std::filesystem::path(LIGHTWALK_MODULE_DIR)
+                                                std::filesystem::path(LIGHTWALK_MODULE_DIR)
 #endif
          }) {
         void* module = dlopen((folder / file).c_str(), RTLD_NOW | RTLD_LOCAL);
