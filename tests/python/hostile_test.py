@@ -40,6 +40,13 @@ def freed_view():
     return array
 
 
+def released_view():
+    """A buffer whose memory was given back."""
+    view = memoryview(bytearray(24)).cast("d")
+    view.release()
+    return view
+
+
 def any_array(rng):
     shape = rng.choice([(3,), (1, 3), (4, 3), (4, 3, 3), (3, 4), (0, 3), (0,), (), (2, 2, 2, 2), (3, 0)])
     kind = rng.choice(["f8", "f4", "f2", "i4", "u1", "?", "c16", "O", "U3", "M8[s]", ">f8", "V8"])
@@ -60,7 +67,7 @@ def any_value(rng):
         lambda: None, lambda: True, lambda: rng.randint(-3, 5), lambda: 10 ** 40, lambda: -1, lambda: rng.random(), lambda: float("nan"), lambda: float("inf"),
         lambda: 1e308, lambda: "", lambda: "lamp", lambda: "-vp 1 2 3", lambda: "-vp", lambda: "\0", lambda: "\ud800", lambda: "a b", lambda: "x" * 5000,
         lambda: b"lamp", lambda: [], lambda: (1, 2), lambda: (0, 1, 0), lambda: [(0, 0, 1), (1, 0, 0)], lambda: {"a": 1}, lambda: {"position": (0, 0, 1)},
-        lambda: {1: 2}, lambda: object(), Hostile, lambda: 3j, lambda: any_array(rng), freed_view, lambda: np.broadcast_to(np.zeros(3), (1 << 40, 3)),
+        lambda: {1: 2}, lambda: object(), Hostile, lambda: 3j, lambda: any_array(rng), freed_view, released_view, lambda: np.broadcast_to(np.zeros(3), (1 << 40, 3)),
         lambda: memoryview(b"12345678"), lambda: lightwalk.View(), lambda: lightwalk.View(rng.choice([3, "x", (1, 2, 3), Hostile()])),
         lambda: range(3), lambda: iter([1, 2]), lambda: lightwalk, lambda: np.float32(2), lambda: np.int64(1), lambda: np.str_("lamp")])()
 

@@ -1,7 +1,9 @@
 """Pictures are those of the command, bit for bit."""
 
+import sys
 import threading
 import time
+import types
 
 import numpy as np
 import pytest
@@ -76,6 +78,33 @@ def test_progress_is_told_and_what_a_listener_raises_ends_the_work(room):
     with pytest.raises(LookupError, match="enough"):
         room.render(VIEW, 512, samples=1024, progress=refuse)
     assert room.render(VIEW, 16).shape[2] == 3
+
+
+def test_progress_is_a_bar_where_tqdm_is_installed(room, monkeypatch):
+    class Bar:
+        made = []
+
+        def __init__(self, **_):
+            self.n, self.closed = 0, False
+            self.made.append(self)
+
+        def refresh(self):
+            pass
+
+        def close(self):
+            self.closed = True
+
+    module = types.ModuleType("tqdm.auto")
+    module.tqdm = Bar
+    monkeypatch.setitem(sys.modules, "tqdm", types.ModuleType("tqdm"))
+    monkeypatch.setitem(sys.modules, "tqdm.auto", module)
+    room.render(VIEW, 16, progress=True)
+    list(room.animate([VIEW] * 3, 16, progress=True))
+    assert [(bar.n, bar.closed) for bar in Bar.made] == [(1, True)] * 2
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)  # not installed
+    assert room.render(VIEW, 16, progress=True).max() > 0
+    with pytest.raises(lightwalk.OptionError, match="progress"):
+        room.render(VIEW, 16, progress="bar")
 
 
 def test_other_threads_of_python_go_on_while_a_picture_is_drawn(room):

@@ -136,7 +136,7 @@ def _word(option: Option, value: Any) -> str:
     elif isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise OptionError(f"option {option.keyword}: expected {' '.join(option.arguments)}, found {_shown(value)}")
     elif isinstance(value, numbers.Integral):
-        word = str(int(value)) if -1e30 < value < 1e30 else "inf"
+        word = str(int(value)) if abs(int(value)) < 10 ** 30 else "inf"
     else:
         word = number_word(float(value))
     if not isinstance(word, str) or "\0" in word:

@@ -8,7 +8,7 @@ import pathlib
 import re
 import threading
 import warnings
-from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Sized, Union
 
 import numpy as np
 
@@ -181,7 +181,7 @@ class Scene(Builder):
     @property
     def digest(self) -> str:
         """Of all that was read: equal for equal files."""
-        return self._compiled().digest()
+        return str(self._compiled().digest())
 
     def freeze(self, file: Any) -> None:
         """Writes a scene of files to one file that is mapped rather than read (`lightwalk freeze`)."""
@@ -238,14 +238,13 @@ class Scene(Builder):
         return self._frames(maker, views, progress)
 
     def _frames(self, maker: Any, views: Iterable[ViewLike] | None, progress: Progress) -> Iterator[np.ndarray]:
-        numbered = range(maker.path_length()) if views is None else views
-        total = len(numbered) if hasattr(numbered, "__len__") else None
+        total = maker.path_length() if views is None else len(views) if isinstance(views, Sized) else 0
         with _Listener(progress, "animate") as listener:
-            for done, which in enumerate(numbered):
-                made = maker.make_frame(which) if views is None else maker.make_changed(view_words(which))
+            frames = map(maker.make_frame, range(total)) if views is None else (maker.make_changed(view_words(one)) for one in views)
+            for done, made in enumerate(frames, 1):
                 self._warn(maker.take_warnings())
                 if listener and total:
-                    listener((done + 1) / total)
+                    listener(done / total)
                 yield _picture(made, False).radiance
 
     def trace(self, origins: Any, directions: Any, irradiance: bool = False, *, distance: bool = False, normal: bool = False,

@@ -8,8 +8,8 @@ import shlex
 from typing import Any, Mapping, Sequence, Union
 
 from ._arrays import few
-from ._errors import InputError
-from ._options import OptionError, number_word
+from ._errors import InputError, OptionError
+from ._options import number_word
 
 _SHORT = {"type": "-vt", "position": "-vp", "direction": "-vd", "up": "-vu", "horizontal": "-vh", "vertical": "-vv", "fore": "-vo", "aft": "-va",
           "shift": "-vs", "lift": "-vl"}
