@@ -64,8 +64,7 @@ int CommandRun::share_out(FunctionRef<int()> body) {
 
 RendererRequest CommandRun::request() {
     RendererRequest request = options_.request;
-    request.options.light = options_.settings.light;
-    request.options.ambient_file = options_.settings.ambient_file;
+    request.options = renderer_options(options_);
     request.options.warn = [this](const std::string& message) { warnings_.warn(message); };
     return request;
 }

@@ -69,6 +69,13 @@ CommonOptions::CommonOptions(std::string name, OptionDefaults program)
     request.options.stop = &interrupt_flag();
 }
 
+RendererOptions renderer_options(const CommonOptions& options) {
+    RendererOptions all = options.request.options;
+    all.light = options.settings.light;
+    all.ambient_file = options.settings.ambient_file;
+    return all;
+}
+
 std::vector<OptionRow> common_option_rows(CommonOptions& o) {
     RenderOptions& light = o.settings.light;
     RendererOptions& renderer = o.request.options;

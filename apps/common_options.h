@@ -36,6 +36,9 @@ struct CommonOptions {
     void set_threads(int threads) { request.source.threads = request.options.threads = threads; }
 };
 
+/// What a renderer is asked for, but for warnings.
+[[nodiscard]] RendererOptions renderer_options(const CommonOptions& options);
+
 /// The rows of the options that all commands share, and of those on ranks. `options` must outlive
 /// the rows.
 [[nodiscard]] std::vector<OptionRow> common_option_rows(CommonOptions& options);

@@ -16,10 +16,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;  ///< of answers that wait to be written
-constexpr std::size_t kPart = std::size_t{1} << 18;        ///< of them, written at once [bytes]
-constexpr std::size_t kMostLongRays = 1024;                ///< with indirect light, at once
-constexpr double kCacheAccuracy = 0.2;                     ///< -aa, with --cache and -aa 0
+constexpr std::size_t kPart = std::size_t{1} << 18;  ///< of answers, written at once [bytes]
 
 class ContribRun final : CommandRun {
   public:
@@ -28,25 +25,16 @@ class ContribRun final : CommandRun {
           command_(command),
           stream_(command.formats.input) {
         resolve_scene_files(command_.common, "the rays", files);
-        if (command_.modifiers.empty())
-            throw UsageError("no modifier is named: expected -m MODIFIER or -M FILE");
-        if (command_.next_open)
-            throw UsageError(
-                "options -o -b -bn -p hold for the modifiers behind them: expected -m");
+        tracked_ = tracked_modifiers(command_);
         if (command_.formats.input == NumberFormat::rgbe)
             throw UsageError("option -f: format c is for output only");
-        for (const ModifierRequest& request : command_.modifiers) {
-            tracked_.push_back({request.name,
-                                command_.definitions.bin(request.bin, request.parameters),
-                                static_cast<std::size_t>(request.bins)});
-            outputs_.push_back({request.output, request.name, tracked_.back().bins});
-        }
+        for (std::size_t i = 0; i < tracked_.size(); ++i)
+            outputs_.push_back({command_.modifiers[i].output, tracked_[i].name, tracked_[i].bins});
         (void)contribution_outputs(outputs_);  // what is wrong with names is told at once
         if (std::any_of(outputs_.begin(), outputs_.end(),
                         [](const OutputRequest& request) { return request.specification.empty(); }))
             use_standard_output();
-        settle_light();
-        if (command_.cache) settle_cache();
+        settle_contrib_command(command_, tracked_, warnings());
     }
 
     int run() {
@@ -62,34 +50,6 @@ class ContribRun final : CommandRun {
     }
 
   private:
-    /// Contributions come neither from a cache nor from differences.
-    void settle_light() {
-        RenderSettings& settings = command_.common.settings;
-        if (!settings.ambient_file.empty())
-            throw UsageError("option -af: contributions are not kept in ambient files");
-        if (settings.light.ambient_super_samples > 0)
-            warnings().warn("-as counts as 0: contributions tell no places that need more samples");
-        if (settings.light.ambient_accuracy > 0 && !command_.cache)
-            warnings().warn("-aa counts as 0: without --cache contributions are not interpolated");
-        if (!command_.cache)
-            settings.light.ambient_accuracy = 0;
-        else if (settings.light.ambient_accuracy <= 0)
-            settings.light.ambient_accuracy = kCacheAccuracy;
-        settings.light.ambient_super_samples = 0;
-        settings.light.shadow_threshold = 0;
-    }
-
-    void settle_cache() {
-        for (const TrackedModifier& modifier : tracked_) {
-            if (depends_on_position(modifier.bin))
-                throw UsageError("option --cache: the bins of modifier \"" + modifier.name +
-                                 "\" depend on place (Px Py Pz), which is not kept: expected Dx Dy "
-                                 "Dz alone");
-        }
-        if (command_.common.settings.light.ambient_bounces < 2)
-            warnings().warn("--cache changes nothing: it is for -ab 2 and more");
-    }
-
     int trace() {
         Renderer renderer = open_renderer(ranks(), task());
         const RenderBackend& backend = renderer.backend();
@@ -110,22 +70,11 @@ class ContribRun final : CommandRun {
 
     [[nodiscard]] RendererRequest task() {
         RendererRequest task = request();
-        task.options.answers_rays = true;
-        task.options.long_rays = indirect();
-        task.options.keep_coefficients = keeps_coefficients();
         task.options.make_tally = [this](const Tracer& tracer) {
             return std::make_unique<ContributionTally>(tracer, tracked_, command_.values,
                                                        warnings());
         };
         return task;
-    }
-
-    [[nodiscard]] bool indirect() const {
-        return command_.common.settings.light.ambient_bounces > 0;
-    }
-
-    [[nodiscard]] bool keeps_coefficients() const {
-        return command_.cache && command_.common.settings.light.ambient_bounces > 1;
     }
 
     void warn_of_missing(const Scene& scene) {
@@ -152,9 +101,8 @@ class ContribRun final : CommandRun {
         limits.expected =
             y * std::max<std::uint64_t>(x, 1) * static_cast<std::uint64_t>(command_.rays);
         limits.row = command_.x;
-        limits.waits = keeps_coefficients();
-        limits.most = std::clamp<std::size_t>(kMostBytes / answer_bytes(), 1, limits.most);
-        if (indirect()) limits.most = std::min(limits.most, kMostLongRays);
+        limits.waits = command_.common.request.options.keep_coefficients;
+        limits.most = rays_at_once(command_, tracked_);
         return limits;
     }
 

@@ -32,6 +32,18 @@ CustomOption next_option(ContribCommand& c, std::string& place) {
     }};
 }
 
+void settle_cache(const ContribCommand& command, const std::vector<TrackedModifier>& tracked,
+                  WarningSink& warnings) {
+    for (const TrackedModifier& modifier : tracked) {
+        if (depends_on_position(modifier.bin))
+            throw UsageError("option --cache: the bins of modifier \"" + modifier.name +
+                             "\" depend on place (Px Py Pz), which is not kept: expected Dx Dy "
+                             "Dz alone");
+    }
+    if (command.common.settings.light.ambient_bounces < 2)
+        warnings.warn("--cache changes nothing: it is for -ab 2 and more");
+}
+
 std::vector<OptionRow> modifier_rows(ContribCommand& c, const LibraryPath& library) {
     const auto add = [&c](const std::vector<std::string>& names) { track(c, names); };
     return {
@@ -118,6 +130,50 @@ OptionTable option_table(ContribCommand& c, const std::shared_ptr<FileSource>& f
             {modifier_rows(c, library), record_rows(c, library),
              render_option_rows(c.common.settings, library), common_option_rows(c.common)},
             {"-i", "-n", "--seed"}};
+}
+
+std::vector<TrackedModifier> tracked_modifiers(const ContribCommand& command) {
+    if (command.modifiers.empty())
+        throw UsageError("no modifier is named: expected -m MODIFIER or -M FILE");
+    if (command.next_open)
+        throw UsageError("options -o -b -bn -p hold for the modifiers behind them: expected -m");
+    std::vector<TrackedModifier> tracked;
+    for (const ModifierRequest& request : command.modifiers)
+        tracked.push_back({request.name, command.definitions.bin(request.bin, request.parameters),
+                           static_cast<std::size_t>(request.bins)});
+    return tracked;
+}
+
+void settle_contrib_command(ContribCommand& command, const std::vector<TrackedModifier>& tracked,
+                            WarningSink& warnings) {
+    constexpr double kCacheAccuracy = 0.2;  // -aa, with --cache and -aa 0
+    if (!command.common.settings.ambient_file.empty())
+        throw UsageError("option -af: contributions are not kept in ambient files");
+    RenderOptions& light = command.common.settings.light;
+    if (light.ambient_super_samples > 0)
+        warnings.warn("-as counts as 0: contributions tell no places that need more samples");
+    if (light.ambient_accuracy > 0 && !command.cache)
+        warnings.warn("-aa counts as 0: without --cache contributions are not interpolated");
+    if (!command.cache)
+        light.ambient_accuracy = 0;
+    else if (light.ambient_accuracy <= 0)
+        light.ambient_accuracy = kCacheAccuracy;
+    light.ambient_super_samples = 0;
+    light.shadow_threshold = 0;
+    if (command.cache) settle_cache(command, tracked, warnings);
+    RendererOptions& renderer = command.common.request.options;
+    renderer.answers_rays = true;
+    renderer.long_rays = light.ambient_bounces > 0;
+    renderer.keep_coefficients = command.cache && light.ambient_bounces > 1;
+}
+
+std::size_t rays_at_once(const ContribCommand& command,
+                         const std::vector<TrackedModifier>& tracked) {
+    constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of answers
+    constexpr std::size_t kMost = std::size_t{1} << 20, kMostLong = 1024;
+    const std::size_t ray = 3 * sizeof(double) * column_count(tracked);
+    const std::size_t most = std::clamp<std::size_t>(kMostBytes / ray, 1, kMost);
+    return command.common.request.options.long_rays ? std::min(most, kMostLong) : most;
 }
 
 }  // namespace lightwalk

@@ -7,6 +7,7 @@
 #include "apps/common_options.h"
 #include "io/contributions/bin_definitions.h"
 #include "io/contributions/contribution_files.h"
+#include "io/contributions/contribution_tally.h"
 #include "io/rays/ray_reader.h"
 
 namespace lightwalk {
@@ -39,5 +40,16 @@ struct ContribCommand {
 /// @param files  where those are that options name
 [[nodiscard]] OptionTable option_table(ContribCommand& command,
                                        const std::shared_ptr<FileSource>& files);
+
+/// Whose contributions are asked for, in order. Throws UsageError where none is, and for options
+/// that hold for none.
+[[nodiscard]] std::vector<TrackedModifier> tracked_modifiers(const ContribCommand& command);
+/// Sets what follows from other options: contributions come neither from ambient values nor from
+/// differences. Throws UsageError for options that do not go together.
+void settle_contrib_command(ContribCommand& command, const std::vector<TrackedModifier>& tracked,
+                            WarningSink& warnings);
+/// How many rays are given to the renderer at once: their answers have to be in memory.
+[[nodiscard]] std::size_t rays_at_once(const ContribCommand& command,
+                                       const std::vector<TrackedModifier>& tracked);
 
 }  // namespace lightwalk

@@ -2,7 +2,6 @@
 // walk.
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -40,7 +39,7 @@ class RenderRun final : CommandRun {
         check_render_command(command_, files);
         if (command_.walk && speaks() && is_film(command_.output.picture))
             (void)film_encoder();  // before anything is drawn
-        choose_spacing();
+        settle_render_command(command_, warnings());
         if (command_.first_frame == 0)
             (void)Camera(command_.view);  // a bad view is told before the scene is read
         resolve_scene_files(command_.common,
@@ -79,11 +78,7 @@ class RenderRun final : CommandRun {
 
     [[nodiscard]] RendererRequest task() {
         RendererRequest task = request();
-        task.options.light.sample_lights = sample_lights();
-        if (reuses()) {
-            task.options.reuse = std::make_shared<const CloudOptions>(command_.walk->cloud);
-            task.options.frames = walk_length(*command_.walk) - frames_there();
-        }
+        if (reuses()) task.options.frames = walk_length(*command_.walk) - frames_there();
         task.options.progress = [this](const RenderProgress& progress) {
             printer_.print(progress);
         };
@@ -91,19 +86,9 @@ class RenderRun final : CommandRun {
         return task;
     }
 
-    /// Light sources at the end of each ray; 0: all of them.
-    [[nodiscard]] int sample_lights() const {
-        const PixelOptions& pixels = options().pixels;
-        constexpr int kAutomatic = 8;
-        if (pixels.samples <= 1 && !options().goal.given()) return 0;
-        if (command_.sample_lights) return *command_.sample_lights;
-        // Layers are made for lights that may be turned up later.
-        return reuses() || command_.output.layers ? 0 : kAutomatic;
-    }
-
     [[nodiscard]] RendererOptions& options() const { return command_.common.request.options; }
     [[nodiscard]] const RenderOptions& light() const { return command_.common.settings.light; }
-    [[nodiscard]] bool reuses() const { return command_.walk && command_.walk->reuse; }
+    [[nodiscard]] bool reuses() const { return reuses_frames(command_); }
 
     [[nodiscard]] ProgressOptions progress_options() const {
         const CommonOptions& common = command_.common;
@@ -163,27 +148,6 @@ class RenderRun final : CommandRun {
         use_standard_output();
     }
 
-    void choose_spacing() {
-        constexpr int kLargestSpacing = 16;
-        PixelOptions& pixels = options().pixels;
-        if (pixels.spacing > kLargestSpacing) warnings().warn("-ps reduced to 16");
-        pixels.spacing = std::clamp(pixels.spacing, 1, kLargestSpacing);
-        if (command_.output.layers && pixels.spacing > 1) {
-            if (command_.spacing_given)
-                warnings().warn("-ps ignored: with --light-group every pixel is traced");
-            pixels.spacing = 1;
-        }
-        pixels.share_samples = !command_.output.denoise;  // noise differs from pixel to pixel then
-        const bool sampled =
-            pixels.samples > 1 || options().goal.given() || command_.output.denoise;
-        if (pixels.spacing == 1 || (!reuses() && !sampled)) return;
-        if (command_.spacing_given)
-            warnings().warn(reuses() ? "-ps ignored: every pixel that is not reused is traced"
-                                     : "-ps ignored: every pixel is traced where they have several "
-                                       "rays, or are denoised");
-        pixels.spacing = 1;
-    }
-
     /// Whether a frame is not to be drawn again.
     [[nodiscard]] bool is_there(int frame) const {
         const SeriesOutput& output = command_.output;
@@ -233,7 +197,9 @@ class RenderRun final : CommandRun {
 
     [[nodiscard]] SeriesObserver observer() {
         SeriesObserver observer;
-        observer.size_of = [this](const View& view) { return picture_size(view); };
+        observer.size_of = [this](const View& view) {
+            return picture_size(command_, view, warnings());
+        };
         if (command_.report_interval > 0)
             observer.begins = [](const WantedPicture& wanted) {
                 if (wanted.frame > 0)
@@ -250,18 +216,6 @@ class RenderRun final : CommandRun {
                     command_.common.program().c_str(), 100 * errors.noisy, 100 * errors.denoised);
             };
         return observer;
-    }
-
-    [[nodiscard]] PictureSize picture_size(const View& view) {
-        constexpr int kMostPixels = 1 << 28;
-        const Camera camera(view);
-        const PictureSize size =
-            fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
-        if (size.width <= 0 || size.height <= 0) warnings().warn("empty output picture");
-        if (static_cast<double>(size.width) * size.height > kMostPixels)
-            throw UsageError("options -x and -y: more than " + std::to_string(kMostPixels) +
-                             " pixels");
-        return size;
     }
 
     /// False: interrupted.

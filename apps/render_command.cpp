@@ -1,6 +1,8 @@
 #include "apps/render_command.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -361,6 +363,39 @@ void check_walk(const RenderCommand& command) {
         throw UsageError("option --samples: say --edge-samples, for where a view rests");
 }
 
+/// The largest distance of pixels that are traced in any case.
+void settle_spacing(RenderCommand& command, WarningSink& warnings) {
+    constexpr int kLargestSpacing = 16;
+    PixelOptions& pixels = command.common.request.options.pixels;
+    if (pixels.spacing > kLargestSpacing) warnings.warn("-ps reduced to 16");
+    pixels.spacing = std::clamp(pixels.spacing, 1, kLargestSpacing);
+    if (command.output.layers && pixels.spacing > 1) {
+        if (command.spacing_given)
+            warnings.warn("-ps ignored: with --light-group every pixel is traced");
+        pixels.spacing = 1;
+    }
+    pixels.share_samples = !command.output.denoise;  // noise differs from pixel to pixel then
+    const bool reuses = reuses_frames(command);
+    const bool sampled =
+        pixels.samples > 1 || command.common.request.options.goal.given() || command.output.denoise;
+    if (pixels.spacing == 1 || (!reuses && !sampled)) return;
+    if (command.spacing_given)
+        warnings.warn(reuses ? "-ps ignored: every pixel that is not reused is traced"
+                             : "-ps ignored: every pixel is traced where they have several rays, "
+                               "or are denoised");
+    pixels.spacing = 1;
+}
+
+/// Light sources at the end of each ray; 0: all of them.
+int settled_lights(const RenderCommand& command) {
+    constexpr int kAutomatic = 8;
+    const RendererOptions& options = command.common.request.options;
+    if (options.pixels.samples <= 1 && !options.goal.given()) return 0;
+    if (command.sample_lights) return *command.sample_lights;
+    // Layers are made for lights that may be turned up later.
+    return reuses_frames(command) || command.output.layers ? 0 : kAutomatic;
+}
+
 }  // namespace
 
 RenderCommand::RenderCommand(const std::string& name) : common(name) {
@@ -396,6 +431,25 @@ void check_render_command(RenderCommand& command, FileSource& files) {
     if (!command.walk) return;
     check_animate(command);
     resolve_walk(*command.walk, command.view, files);
+}
+
+void settle_render_command(RenderCommand& command, WarningSink& warnings) {
+    settle_spacing(command, warnings);
+    command.common.settings.light.sample_lights = settled_lights(command);
+    if (reuses_frames(command))
+        command.common.request.options.reuse =
+            std::make_shared<const CloudOptions>(command.walk->cloud);
+}
+
+PictureSize picture_size(const RenderCommand& command, const View& view, WarningSink& warnings) {
+    constexpr int kMostPixels = 1 << 28;
+    const Camera camera(view);
+    const PictureSize size =
+        fit_picture(command.x, command.y, camera.aspect(), command.pixel_aspect);
+    if (size.width <= 0 || size.height <= 0) warnings.warn("empty output picture");
+    if (static_cast<double>(size.width) * size.height > kMostPixels)
+        throw UsageError("options -x and -y: more than " + std::to_string(kMostPixels) + " pixels");
+    return size;
 }
 
 }  // namespace lightwalk

@@ -40,4 +40,14 @@ struct RenderCommand {
 /// and InputError for that file.
 void check_render_command(RenderCommand& command, FileSource& files);
 
+/// Whether its frames reuse each other's points.
+[[nodiscard]] inline bool reuses_frames(const RenderCommand& command) {
+    return command.walk && command.walk->reuse;
+}
+/// Sets what follows from other options: the spacing of pixels, light samples, reuse.
+void settle_render_command(RenderCommand& command, WarningSink& warnings);
+/// The size of a view's picture. Throws InputError for a bad view, UsageError for too many pixels.
+[[nodiscard]] PictureSize picture_size(const RenderCommand& command, const View& view,
+                                       WarningSink& warnings);
+
 }  // namespace lightwalk

@@ -162,6 +162,18 @@ CustomOption size_option(WalkSizeLimit& size) {
             [&size] { return std::to_string(size.width) + 'x' + std::to_string(size.height); }};
 }
 
+/// Origins become a part of a header, in which they must stay what they are.
+CustomOption embedders_option(std::string& origins) {
+    return {[&origins](OptionWords& words) {
+        origins = words.text();
+        constexpr const char* kBelong =
+            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 :/.*-[]";
+        if (origins.find_first_not_of(' ') == std::string::npos ||
+            origins.find_first_not_of(kBelong) != std::string::npos)
+            refuse_argument("--embed", "origins: http://localhost:*", '"' + origins + '"');
+    }};
+}
+
 }  // namespace
 
 std::vector<OptionRow> walk_option_rows(WalkCommand& walk, int& projectors) {
@@ -179,6 +191,10 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
         {"--bind ADDRESS", &serve.server.address,
          "address that the page is served on. 127.0.0.1: to this machine alone. Anything else "
          "demands the token in the printed address"},
+        {"--embed ORIGINS", embedders_option(serve.server.embedders),
+         "pages that may show this one within them, a notebook's say, by their origins, in one "
+         "word "
+         "with spaces between them: \"http://localhost:* http://127.0.0.1:*\""},
         {"--clients N", &serve.server.limits.clients,
          "number of browsers at once: the first drives, others watch",
          With{.least = 1, .most = 256}},

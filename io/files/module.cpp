@@ -5,16 +5,12 @@
 #include <filesystem>
 
 namespace lightwalk {
-namespace {
 
-/// Of the program or the shared library that this code is a part of.
-std::filesystem::path own_folder() {
+std::string own_folder() {
     Dl_info found{};
     if (dladdr(reinterpret_cast<const void*>(&load_from_module), &found) == 0) return {};
-    return std::filesystem::path(found.dli_fname).parent_path();
+    return std::filesystem::path(found.dli_fname).parent_path().string();
 }
-
-}  // namespace
 
 std::string loading_error() {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
@@ -26,10 +22,11 @@ void* load_from_module(const char* file, const char* symbol, std::string& error)
     std::error_code failed;
     const std::filesystem::path here =
         std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
-    for (const std::filesystem::path& folder :
-         {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk", own_folder() / "lightwalk",
+    const std::filesystem::path own = own_folder();
+    for (const std::filesystem::path& folder : {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk",
+                                                own / "lightwalk", own.is_absolute() ? own : here,
 #ifdef LIGHTWALK_MODULE_DIR
-          std::filesystem::path(LIGHTWALK_MODULE_DIR)
+                                                std::filesystem::path(LIGHTWALK_MODULE_DIR)
 #endif
          }) {
         void* module = dlopen((folder / file).c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "io/files/file_source.h"
 #include "io/files/library_path.h"
+#include "io/files/module.h"
 
 namespace lightwalk {
 namespace {
@@ -43,15 +44,17 @@ std::optional<std::string> home_directory(const std::string& user) {
     return std::string(entry.pw_dir);
 }
 
-/// Where this program's own library files lie: beside the executable's installation, where it was
+/// Where this program's own library files lie: beside the installation of the executable, or of the
+/// Python module that this is a part of, where it was
 /// installed to at build time, or in the source tree; nothing when none of these folders exists.
 std::optional<std::string> own_library() {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     std::vector<std::string> candidates;
-    if (!error) {
-        const std::filesystem::path prefix = program.parent_path().parent_path();
-        candidates.push_back((prefix / "share" / "lightwalk" / "lib").string());
+    for (const std::filesystem::path& folder :
+         {std::filesystem::path(own_folder()), program.parent_path()}) {
+        if (folder.is_absolute())
+            candidates.push_back((folder.parent_path() / "share" / "lightwalk" / "lib").string());
     }
 #ifdef LIGHTWALK_INSTALLED_LIBRARY
     candidates.emplace_back(LIGHTWALK_INSTALLED_LIBRARY);

@@ -10,7 +10,7 @@ namespace http = boost::beast::http;
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "font-src 'self'; manifest-src 'self'; connect-src 'self'; worker-src 'self' blob:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "base-uri 'none'; form-action 'none'; frame-ancestors ";
 
 constexpr std::size_t kDrained = 4096;  // at once [bytes]
 
@@ -118,7 +118,7 @@ void HttpSession::answer(WebAnswer answer) {
 void HttpSession::write(Response response) {
     response.version(11);
     response.set(http::field::server, "Lightwalk");
-    response.set("Content-Security-Policy", kContentPolicy);
+    response.set("Content-Security-Policy", std::string(kContentPolicy) + host_.embedders());
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Referrer-Policy", "no-referrer");  // the address may hold the token
     response.set("Cross-Origin-Resource-Policy", "same-origin");

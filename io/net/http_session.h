@@ -21,6 +21,8 @@ class HttpHost {
   public:
     virtual ~HttpHost() = default;
     [[nodiscard]] virtual const std::string& token() const = 0;
+    /// Who may show the page within another one, in the words of a content security policy.
+    [[nodiscard]] virtual std::string embedders() const = 0;
     [[nodiscard]] virtual const StoredAsset* asset(const std::string& path) const = 0;
     [[nodiscard]] virtual bool room_for_client() const = 0;
     virtual void upgrade(boost::beast::tcp_stream stream, const HttpRequest& request) = 0;

@@ -86,6 +86,9 @@ class WebServer::Core final : public ClientHost,
     [[nodiscard]] tcp::endpoint endpoint() const { return endpoint_; }
 
     [[nodiscard]] const std::string& token() const override { return options_.token; }
+    [[nodiscard]] std::string embedders() const override {
+        return options_.embedders.empty() ? "'none'" : options_.embedders;
+    }
     [[nodiscard]] const StoredAsset* asset(const std::string& path) const override;
     [[nodiscard]] bool room_for_client() const override;
     void upgrade(boost::beast::tcp_stream stream, const HttpRequest& request) override;

@@ -49,6 +49,8 @@ struct WebServerOptions {
     int port = 8080;                    ///< 0: any free port; at most 65535
     std::string token;                  ///< see make_token(); with an empty one none is demanded
     WebLimits limits;
+    /// Origins of pages that may show this one within them, with spaces between them; "": none.
+    std::string embedders = {};
 };
 
 struct WebAnswer {

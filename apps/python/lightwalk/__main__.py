@@ -1,0 +1,5 @@
+"""The program: `python -m lightwalk`."""
+
+import lightwalk_program
+
+lightwalk_program.main()

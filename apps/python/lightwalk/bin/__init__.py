@@ -1,0 +1,1 @@
+"""The program, its modules, and the extension module."""
