@@ -108,7 +108,8 @@ std::vector<OptionRow> pixel_rows(RenderCommand& c) {
          "relative error | rays are added where the picture needs them until 95 % of its pixels "
          "are within E of their luminance, as estimated from two halves of the rays: .05 is 5 %. "
          "--samples are those that each pixel begins with (at least 4). An .exr holds the error in "
-         "a channel of that name (with layers, that of the whole picture), --stats what was reached",
+         "a channel of that name (with layers, that of the whole picture), --stats what was "
+         "reached",
          With{.least = 0, .most = 1, .shown = "", .commands = kRender | kAnimate}},
         {"--time SECONDS", &c.common.request.options.goal.seconds,
          "time for a picture [s] | the same until the time is up, but for reading, writing and the "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -197,4 +198,36 @@ TEST_CASE("clean walk: without a denoiser the page may wish what it wants") {
     walk.inbox.message(kDriver, display_message(true));
     finish_after(walk, view_message(1, 0));
     CHECK((frame_flags(last_frame(walk)) & kDenoised) == 0);
+}
+
+TEST_CASE("clean view: what is not all there is left alone, what is not seen any more given up") {
+    std::atomic<int> times{0};
+    CleanView view([&times](Picture&, const std::function<bool()>& goes_on) {
+        ++times;
+        while (goes_on()) std::this_thread::yield();
+        return false;
+    });
+    LivePicture picture;
+    picture.width = picture.height = 1;
+    picture.radiance = {Rgb::grey(1)};
+    DisplayRequest display;
+    display.clean = true;
+    for (const WalkPhase phase : {WalkPhase::moving, WalkPhase::filling, WalkPhase::ambient}) {
+        picture.phase = phase;
+        CHECK_FALSE(view.follow(picture, display, true));
+        CHECK_FALSE(view.is_coming());
+    }
+    for (const WalkPhase phase : {WalkPhase::refining, WalkPhase::done}) {
+        picture.phase = phase;
+        CHECK_FALSE(view.follow(picture, display, true));
+        CHECK(view.is_coming());
+        CHECK_FALSE(view.follow(picture, display, false));  // before another picture is drawn
+        CHECK_FALSE(view.is_coming());
+        CHECK(view.radiance().empty());
+    }
+    display.clean = false;
+    CHECK_FALSE(view.follow(picture, display, true));
+    CHECK_FALSE(view.is_coming());
+    CHECK(times <= 2);
+    CHECK(view.take_problem().empty());
 }
