@@ -1,10 +1,12 @@
 // lightwalk: one program, one command a task.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/commands.h"
@@ -88,8 +90,11 @@ int main(int argc, char** argv) {
         argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>(),
         ranks);
     if (!ranks || status == lightwalk::kSuccessStatus) return status;
-    // Of a process that ends by itself with another status mpirun tells a dozen lines. The others
-    // wait for rank 0 before they end.
+    // Of a process that ends by itself with another status mpirun tells a dozen lines: rank 0 ends
+    // all. The others wait for that outside of MPI: mpirun may hang or crash where processes are
+    // killed that are about to end.
+    constexpr std::chrono::milliseconds kShort{100}, kLong{20000};
+    std::this_thread::sleep_for(ranks->rank() == 0 ? kShort : kLong);
     if (ranks->rank() == 0) {
         std::fflush(nullptr);
         ranks->abort(status);

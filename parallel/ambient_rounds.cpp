@@ -69,7 +69,7 @@ void AmbientRounds::agree_on_known() {
 /// Of the other processes nothing.
 RoundShare AmbientRounds::take_known() {
     if (known_.empty()) return {};
-    const auto step = wire::decode<RoundShare>(known_.front());
+    auto step = wire::decode<RoundShare>(known_.front());
     known_.pop_front();
     return step;
 }

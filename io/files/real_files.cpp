@@ -68,7 +68,7 @@ std::optional<std::string> own_library() {
     return std::nullopt;
 }
 
-std::optional<std::string> place_of(const std::string& name) {
+std::optional<std::string> named_place(const std::string& name) {
     if (name.starts_with('$')) return environment(name.substr(1));
     if (name.starts_with('~')) return home_directory(name.substr(1));
     return own_library();
@@ -142,7 +142,7 @@ class RealFiles final : public FileSource {
             case Question::matches:
                 return matches_of(text);
             case Question::place:
-                return place_of(text);
+                return named_place(text);
             case Question::script:
                 return output_of(text, limit);
         }

@@ -35,8 +35,9 @@ TEST_CASE("render and trace on ranks: standard output that cannot be written is 
     const std::string scene = folder.write("room.rad", kRoom);
     const auto into = [&](const std::string& file, const std::vector<std::string>& words,
                           const std::string& input) {
-        std::vector<std::string> launcher{"sh", "-c", "exec \"$@\" > " + file, "sh"};
-        for (const std::string& word : *mpirun(2)) launcher.push_back(word);
+        std::vector<std::string> launcher{"sh", "-c", "exec \"$@\" >" + file, "sh"};
+        const std::vector<std::string> ranks = *mpirun(2);
+        launcher.insert(launcher.end(), ranks.begin(), ranks.end());
         return run_program(words, input, launcher);
     };
     const std::string ray = "0 0 3 0 0 -1\n", file = folder.path("out");

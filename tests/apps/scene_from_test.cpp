@@ -101,11 +101,9 @@ TEST_CASE("--scene-from rank0: ranks that have no frozen scene, another one, or 
     write_scene(folder, "here");
     folder.write("there/nothing", "");
     const std::string here = folder.path("here"), there = folder.path("there");
-    const std::vector<std::string> freeze{"freeze", "-w-", "--allow-commands", "-o"};
     const auto frozen = [&](const std::string& name) {
-        std::vector<std::string> words = freeze;
-        words.insert(words.end(), {name, here + "/room.rad"});
-        REQUIRE(run_program(words).status == 0);
+        const std::vector<std::string> words{"freeze", "--allow-commands", "-o", name, "room.rad"};
+        REQUIRE(run_program(words, "", {"env", "--chdir=" + here}).status == 0);
     };
     frozen(here + "/frozen");
     std::vector<std::string> words = words_with({"--scene-from", "rank0"});
