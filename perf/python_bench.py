@@ -4,10 +4,11 @@
     python perf/python_bench.py [--size N] [--rays N] [--runs N] [--threads N]      with the Python where the package is installed
 
 Prints, as medians of the runs:
-  whole   a picture of the demo scene, from the start of the process to its end, and the processor time of it
-  render  the picture alone: Scene.render, and the program's --stats
-  rays    a million rays: Scene.trace from arrays to an array, and the program's --stats of the same rays as doubles"""
-import argparse, json, os, pathlib, statistics, subprocess, sys, tempfile, time
+  whole   a picture of the demo scene, from the start of the process to its end
+  rays    a million rays: Scene.trace from arrays to an array, and the program on the same rays as doubles, less what it
+          takes without any
+each as time that passes, and as processor time, which tells more where the machine does other things as well."""
+import argparse, os, pathlib, statistics, subprocess, sys, tempfile, time
 
 import numpy as np
 
@@ -22,31 +23,25 @@ lightwalk.save_picture(file, scene.render(view, size, n=threads))
 """
 
 
-def run_of(words):
+def run_of(words, rays=os.devnull):
     """Seconds of a process, and its processor time."""
     before, start = os.times(), time.perf_counter()
-    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+    with open(rays, "rb") as file:
+        subprocess.run([*map(str, words)], stdin=file, check=True, stdout=subprocess.DEVNULL)
     seconds, after = time.perf_counter() - start, os.times()
     return seconds, after.children_user + after.children_system - before.children_user - before.children_system
 
 
-def seconds_of(work):
-    start = time.perf_counter()
+def cost_of(work):
+    """The same of a call."""
+    start, processor = time.perf_counter(), time.process_time()
     work()
-    return time.perf_counter() - start
+    return time.perf_counter() - start, time.process_time() - processor
 
 
-def stats_seconds(words, folder, input=None):
-    """What the program says of its own work, without reading the scene."""
-    stats = folder / "stats.json"
-    with open(input or os.devnull, "rb") as rays:
-        subprocess.run([*words, "--stats", stats, "--quiet"], stdin=rays, check=True, stdout=subprocess.DEVNULL)
-    return json.loads(stats.read_text())["seconds"]["render"]
-
-
-def report(name, unit, python, program):
+def report(name, python, program):
     a, b = statistics.median(python), statistics.median(program)
-    print(f"{name:22} Python {a:9.4g} {unit}   program {b:9.4g} {unit}   {100 * (a / b - 1):+5.1f} %", flush=True)
+    print(f"{name:22} Python {a:8.3f} s   program {b:8.3f} s   {100 * (a / b - 1):+5.1f} %", flush=True)
 
 
 def main():
@@ -62,22 +57,24 @@ def main():
     rng = np.random.default_rng(0)
     origins, directions = np.tile([5., 3.5, 1.6], (options.rays, 1)), rng.normal(size=(options.rays, 3))
     results = {}
+
+    def note(name, kind, cost, start=(0, 0)):
+        for what, value, less in zip(("", ", processor"), cost, start):
+            results.setdefault((name + what, kind), []).append(value - less)
+
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "rays").write_bytes(np.hstack([origins, directions]).tobytes())
+        tracing = [PROGRAM, "trace", "-h-", "-fdf", *common]
         for _ in range(options.runs):
-            for kind, words in (("python", [sys.executable, "-c", WHOLE, VIEW, folder / "p.hdr", str(options.size), str(options.threads)]),
-                                ("program", [PROGRAM, "render", *picture, "-o", folder / "c.hdr", "--quiet", *common])):
-                whole, processor = run_of(words)
-                results.setdefault(("whole", "s", kind), []).append(whole)
-                results.setdefault(("whole, processor", "s", kind), []).append(processor)
-            results.setdefault(("render", "s", "python"), []).append(seconds_of(lambda: scene.render(str(VIEW), options.size, n=options.threads)))
-            results.setdefault(("render", "s", "program"), []).append(stats_seconds([PROGRAM, "render", *picture, "-o", folder / "c.hdr", *common], folder))
-            results.setdefault(("rays", "s", "python"), []).append(seconds_of(lambda: scene.trace(origins, directions, n=options.threads)))
-            results.setdefault(("rays", "s", "program"), []).append(stats_seconds([PROGRAM, "trace", "-h-", "-fdf", *common], folder, folder / "rays"))
-    for name, unit, kind in results:
+            note("whole", "python", run_of([sys.executable, "-c", WHOLE, VIEW, folder / "p.hdr", options.size, options.threads]))
+            note("whole", "program", run_of([PROGRAM, "render", *picture, "-o", folder / "c.hdr", "--quiet", *common]))
+            note("rays", "python", cost_of(lambda: scene.trace(origins, directions, n=options.threads)))
+            start = run_of(tracing)  # of no rays: reading the scene
+            note("rays", "program", run_of(tracing, folder / "rays"), start)
+    for name, kind in results:
         if kind == "python":
-            report(name, unit, results[name, unit, "python"], results[name, unit, "program"])
+            report(name, results[name, "python"], results[name, "program"])
 
 
 main()
