@@ -64,6 +64,15 @@ const std::string& last_frame(const Walk& walk) {
     return *walk.clients.frames.at(kDriver).back();
 }
 
+/// The newest picture that the driver has got: a frame that only says that it is the last has none.
+int contrast_seen(const Walk& walk) {
+    const auto& frames = walk.clients.frames.at(kDriver);
+    for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame)
+        if (const auto pieces = pieces_of(**frame, 1); !pieces.empty())
+            return contrast(pieces.front());
+    return -1;
+}
+
 /// Steps until the driver's last frame is as good as it gets, and has been since the message.
 void finish_after(Walk& walk, const std::string& message) {
     const std::size_t frames = walk.clients.frames_of(kDriver);
@@ -108,7 +117,7 @@ TEST_CASE("clean walk: a view that rests is shown clean, but is measured and sav
     finish_after(walk, view_message(1, 0.25));
     CHECK((frame_flags(last_frame(walk)) & kDenoised) == 0);
     CHECK(times == 0);
-    CHECK(contrast(pieces_of(last_frame(walk), 1).at(0)) > 20);
+    CHECK(contrast_seen(walk) > 20);
     const std::vector<Rgb> traced = read_hdr(walk.saved(), "saved").pixels;
     const nlohmann::json before = light_told(walk, 11);
     CHECK(before["luminance"] > 0);
@@ -117,7 +126,8 @@ TEST_CASE("clean walk: a view that rests is shown clean, but is measured and sav
     finish_after(walk, display_message(true));
     CHECK(times == 1);  // it was done
     CHECK((frame_flags(last_frame(walk)) & kDenoised) != 0);
-    CHECK(contrast(pieces_of(last_frame(walk), 1).at(0)) < 3);
+    CHECK(contrast_seen(walk) < 3);
+    CHECK(contrast_seen(walk) >= 0);
     for (std::size_t i = first; i < walk.clients.frames_of(kDriver); ++i)  // nor its luminance
         CHECK(pieces_of(*walk.clients.frames[kDriver][i], 4).empty());
     CHECK(read_hdr(walk.saved(), "saved").pixels == traced);
@@ -130,7 +140,7 @@ TEST_CASE("clean walk: a view that rests is shown clean, but is measured and sav
         finish_after(walk, display_message(true, true));
     }
     CHECK((frame_flags(last_frame(walk)) & kDenoised) == 0);
-    CHECK(contrast(pieces_of(last_frame(walk), 1).at(0)) > 20);
+    CHECK(contrast_seen(walk) > 20);
     CHECK(times == 1);
 }
 
@@ -189,7 +199,7 @@ TEST_CASE("clean walk: a denoiser that fails is told once, and the walk goes on"
     CHECK(times_told(walk, "Open Image Denoise: no memory") == 1);
     for (const auto& frame : walk.clients.frames[kDriver])
         CHECK((frame_flags(*frame) & kDenoised) == 0);
-    CHECK(contrast(pieces_of(last_frame(walk), 1).at(0)) > 20);
+    CHECK(contrast_seen(walk) > 20);
 }
 
 TEST_CASE("clean walk: without a denoiser the page may wish what it wants") {
