@@ -70,7 +70,7 @@ class Measurement {
         : command_(std::move(command)),
           warnings_("cost_map"),
           session_(compiled_scene(command_.common, warnings_), light().light, light().ambient_file,
-                   false, warnings_) {}
+                   OthersValues::taken, false, warnings_) {}
 
     Json run() {
         const Camera camera(command_.view);
