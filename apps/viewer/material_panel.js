@@ -62,7 +62,7 @@ export class MaterialPanel {
         this.edits.take(materials);
         this.refused_ = Array.isArray(refused) ? refused : [];
         this.follow_light(true);
-        this.show_();
+        this.show_numbers_();
     }
 
     /**
@@ -178,7 +178,11 @@ export class MaterialPanel {
     show_() {
         const layers = this.message_?.layers ?? [];
         by_id("material-layers").replaceChildren(...layers.map((one, k) => this.layer_(one, k)));
-        for (const layer of layers) this.show_values_(layer);
+        this.show_numbers_();
+    }
+
+    show_numbers_() {
+        for (const layer of this.message_?.layers ?? []) this.show_values_(layer);
         this.show_edits_();
         this.say_();
     }
@@ -255,7 +259,17 @@ export class MaterialPanel {
         box.spellcheck = false;
         box.setAttribute("aria-label", `${layer.name}: ${name}`);
         box.setAttribute("aria-describedby", "material-problem");
-        box.addEventListener("change", () => this.change_(layer, index, number_of(box.value), box));
+        // An answer that comes meanwhile leaves alone what is being typed.
+        box.addEventListener("input", () => (box.dataset.typed = ""));
+        box.addEventListener("change", () => {
+            delete box.dataset.typed;
+            this.change_(layer, index, number_of(box.value), box);
+        });
+        box.addEventListener("blur", () => {
+            if (box.dataset.typed === undefined) return;
+            delete box.dataset.typed;
+            this.show_values_(layer);
+        });
         return this.mark_(box, layer, index, "number");
     }
 
@@ -276,7 +290,7 @@ export class MaterialPanel {
         return this.mark_(colour, layer, indices[0], "colour");
     }
 
-    /** Put a layer's numbers into its controls, but for the one that has just said them. */
+    /** Put a layer's numbers into its controls, but for one that is typed in. */
     show_values_(layer) {
         const reals = layer.fixed ? layer.reals : this.edits.reals_of(layer);
         const own = (control) =>
@@ -284,7 +298,7 @@ export class MaterialPanel {
             Number(control.dataset.definition) === layer.definition &&
             control.closest("fieldset").classList.contains("fixed") === (layer.fixed !== "");
         for (const control of document.querySelectorAll("#material-layers input")) {
-            if (!own(control)) continue;
+            if (!own(control) || control.dataset.typed !== undefined) continue;
             const { number, slider, colour } = control.dataset;
             if (number !== undefined) {
                 control.value = String(Number(reals[number].toPrecision(6)));

@@ -115,6 +115,37 @@ export const material_steps = (address, npm) => ({
         await until_told(address, ([one]) => one?.reals[0] === 0.4);
     },
 
+    async "an answer that comes while a number is typed leaves it alone"(page) {
+        await choose_surface(page);
+        const [red, green] = await Promise.all(
+            [0, 1].map(async (k) =>
+                (await page.inputValue(number(k))) === "0.35" ? "0.55" : "0.35",
+            ),
+        );
+        await page.evaluate(
+            ([boxes, numbers]) => {
+                const [one, other] = boxes.map((box) => document.querySelector(box));
+                one.value = numbers[0];
+                one.dispatchEvent(new Event("change"));
+                other.focus();
+                other.value = numbers[1];
+                other.dispatchEvent(new Event("input"));
+            },
+            [
+                [number(0), number(1)],
+                [red, green],
+            ],
+        );
+        const is_red = (value) => window.lightwalk.last_edited?.materials[0]?.reals[0] === value;
+        await until(page, is_red, Number(red));
+        assert.equal(await page.inputValue(number(0)), red);
+        assert.equal(await page.inputValue(number(1)), green);
+        await page.evaluate(() => document.activeElement.dispatchEvent(new Event("change")));
+        await until_told(address, ([one]) => one?.reals[1] === Number(green));
+        assert.equal((await told(address))[0].reals[0], Number(red));
+        assert.equal(await page.inputValue(number(1)), green);
+    },
+
     async "changed materials are undone, forgotten and saved, and stay over a reload"(page) {
         await choose_surface(page);
         await enter(page, 0, "0.4");
