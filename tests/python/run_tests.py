@@ -8,6 +8,7 @@ What is built is not compiled again: the wheel is what the install component "py
 import base64, csv, hashlib, importlib.util, io, pathlib, shutil, subprocess, sys, sysconfig, venv, zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROJECT = ROOT / "apps/python"
 SKIPPED = 77
 
 
@@ -19,13 +20,13 @@ def skip(why):
 def metadata():
     """The files of a wheel's folder NAME-VERSION.dist-info. See "Binary distribution format" (packaging.python.org)."""
     import tomllib
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    project = tomllib.loads((PROJECT / "pyproject.toml").read_text())["project"]
     tag = "cp{0}{1}-cp{0}{1}-{2}".format(*sys.version_info[:2], sysconfig.get_platform().replace("-", "_").replace(".", "_"))
     lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {project['version']}", f"Summary: {project['description']}",
              f"Requires-Python: {project['requires-python']}", *(f"Requires-Dist: {name}" for name in project["dependencies"])]
     scripts = "\n".join(f"{name} = {call}" for name, call in project["scripts"].items())
     return f"{project['name']}-{project['version']}", tag, {
-        "METADATA": "\n".join(lines) + "\n\n" + (ROOT / project["readme"]).read_text(),
+        "METADATA": "\n".join(lines) + "\n\n" + (PROJECT / project["readme"]).read_text(),
         "WHEEL": f"Wheel-Version: 1.0\nGenerator: lightwalk\nRoot-Is-Purelib: false\nTag: {tag}\n",
         "entry_points.txt": f"[console_scripts]\n{scripts}\n"}
 
