@@ -5,6 +5,7 @@
 #include "apps/contrib_command.h"
 #include "apps/render_command.h"
 #include "apps/trace_command.h"
+#include "io/options/manual_page.h"
 
 namespace lightwalk {
 namespace {
@@ -126,8 +127,34 @@ std::string program_help() {
         text += std::string("  lightwalk ") + command.name + ' ' + command.summary + '\n';
     text +=
         "  lightwalk help COMMAND              how to use one of them\n"
-        "  lightwalk help options              all options of all of them, in Markdown\n";
+        "  lightwalk help options              all options of all of them, in Markdown\n"
+        "  lightwalk help man [COMMAND]        a page for man(1)\n";
     return text + kProgramHelp;
+}
+
+/// A summary is what is typed behind the command's name, and in columns beside it what it is for.
+std::pair<std::string, std::string> operands_and_purpose(const Command& command) {
+    const std::string summary = command.summary;
+    const std::size_t gap = summary.find("  ");
+    std::string purpose = summary.substr(summary.find_first_not_of(' ', gap));
+    const auto twice = [](char a, char b) { return a == ' ' && b == ' '; };
+    purpose.erase(std::ranges::unique(purpose, twice).begin(), purpose.end());
+    return {summary.substr(0, gap), purpose};
+}
+
+std::string program_manual() {
+    std::string about =
+        "Physically based pictures of Radiance scenes. Each command has a page of its own:\n\n";
+    std::string pages;
+    for (const Command& command : kCommands) {
+        about += std::string("  lightwalk-") + command.name +
+                 "(1): " + operands_and_purpose(command).second + '\n';
+        pages += std::string(pages.empty() ? "" : ", ") + "lightwalk-" + command.name + "(1)";
+    }
+    return manual_page(
+        {"lightwalk", "lightwalk", "COMMAND OPTIONS SCENE...",
+         "light in buildings that do not exist yet", about + kProgramHelp, "", pages},
+        nullptr, LIGHTWALK_VERSION);
 }
 
 }  // namespace
@@ -146,9 +173,19 @@ std::string help_text(const std::string& name) {
     if (name == "options") return options_document();
     const Command* const command = find_command(name);
     if (command == nullptr) return program_help();
-    const std::string summary = command->summary;
-    return "lightwalk " + name + ' ' + summary.substr(0, summary.find("  ")) + "\n\n" +
+    return "lightwalk " + name + ' ' + operands_and_purpose(*command).first + "\n\n" +
            command->about + command->options().help() + command->example;
+}
+
+std::string manual_text(const std::string& name) {
+    if (name.empty()) return program_manual();
+    const Command* const command = find_command(name);
+    if (command == nullptr) throw UsageError("help man: there is no command " + name);
+    const auto [operands, purpose] = operands_and_purpose(*command);
+    const OptionTable options = command->options();
+    return manual_page({"lightwalk-" + name, "lightwalk " + name, operands, purpose, command->about,
+                        command->example, "lightwalk(1)"},
+                       &options, LIGHTWALK_VERSION);
 }
 
 }  // namespace lightwalk

@@ -52,4 +52,8 @@ struct Command {
 /// as a document in Markdown.
 [[nodiscard]] std::string help_text(const std::string& command);
 
+/// The page for man(1) of a command, or of the program (""). Throws UsageError where there is no
+/// such command.
+[[nodiscard]] std::string manual_text(const std::string& command);
+
 }  // namespace lightwalk

@@ -43,6 +43,10 @@ int dispatch(const std::vector<std::string>& words, Communicator* ranks) {
         const std::vector<std::string> rest(words.begin() + 1, words.end());
         return answer_questions(name, rest) ? kSuccessStatus : command->run(rest, ranks);
     }
+    if (name == "help" && words.size() > 1 && words[1] == "man") {
+        std::fputs(manual_text(words.size() > 2 ? words[2] : "").c_str(), stdout);
+        return kSuccessStatus;
+    }
     if (name == "help") {
         std::fputs(help_text(words.size() > 1 ? words[1] : "").c_str(), stdout);
         return kSuccessStatus;

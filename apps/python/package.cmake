@@ -1,6 +1,6 @@
 # The Python package lightwalk: its module, and as the install component "python" all that its wheel holds. pip builds the
 # wheel by pyproject.toml; tests/python takes one from any build folder.
-if(NOT LIGHTWALK_PYTHON_MODULE OR LIGHTWALK_SANITIZE)
+if(NOT LIGHTWALK_PYTHON_MODULE)
   return()
 endif()
 if(NOT SKBUILD AND NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)

@@ -23,12 +23,11 @@ void* load_from_module(const char* file, const char* symbol, std::string& error)
     const std::filesystem::path here =
         std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
     const std::filesystem::path own = own_folder();
-    for (const std::filesystem::path& folder : {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk",
-                                                own / "lightwalk", own.is_absolute() ? own : here,
-#ifdef LIGHTWALK_MODULE_DIR
-                                                std::filesystem::path(LIGHTWALK_MODULE_DIR)
-#endif
-         }) {
+    // Beside the program, as built or in a wheel; installed; beside a library or a Python module; beside the
+    // program of which this is a test.
+    for (const std::filesystem::path& folder :
+         {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk", own / "lightwalk",
+          own.is_absolute() ? own : here, here / ".."}) {
         void* module = dlopen((folder / file).c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
             error = loading_error();

@@ -44,24 +44,20 @@ std::optional<std::string> home_directory(const std::string& user) {
     return std::string(entry.pw_dir);
 }
 
-/// Where this program's own library files lie: beside the installation of the executable, or of the
-/// Python module that this is a part of, where it was
-/// installed to at build time, or in the source tree; nothing when none of these folders exists.
+/// Where this program's own library files lie, beside the executable, or the library or Python
+/// module that this is a part of: prefix/bin, prefix/lib, prefix/lib/x86_64-linux-gnu, or where it
+/// was built; nothing when no such folder exists.
 std::optional<std::string> own_library() {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     std::vector<std::string> candidates;
     for (const std::filesystem::path& folder :
          {std::filesystem::path(own_folder()), program.parent_path()}) {
-        if (folder.is_absolute())
-            candidates.push_back((folder.parent_path() / "share" / "lightwalk" / "lib").string());
+        if (!folder.is_absolute()) continue;
+        for (const std::filesystem::path& prefix :
+             {folder.parent_path(), folder.parent_path().parent_path(), folder})
+            candidates.push_back((prefix / "share" / "lightwalk" / "lib").string());
     }
-#ifdef LIGHTWALK_INSTALLED_LIBRARY
-    candidates.emplace_back(LIGHTWALK_INSTALLED_LIBRARY);
-#endif
-#ifdef LIGHTWALK_SOURCE_LIBRARY
-    candidates.emplace_back(LIGHTWALK_SOURCE_LIBRARY);
-#endif
     for (std::string& candidate : candidates) {
         if (std::filesystem::is_directory(candidate, error)) return std::move(candidate);
     }

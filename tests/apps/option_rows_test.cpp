@@ -187,3 +187,24 @@ TEST_CASE("options: apps/OPTIONS.md is what `lightwalk help options` prints") {
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     CHECK(text == help_text("options"));
 }
+
+TEST_CASE("manual pages: each command has one, with each option that it takes") {
+    const std::string program = manual_text("");
+    for (const Command& command : commands()) {
+        CAPTURE(command.name);
+        CHECK(program.find(std::string("lightwalk\\-") + command.name + "(1): ") !=
+              std::string::npos);
+        const std::string page = manual_text(command.name);
+        const OptionTable table = command.options();
+        for (const OptionRow& row : table.rows()) {
+            if (!row.offered()) continue;
+            CAPTURE(row.words);
+            std::string name = row.words.substr(0, row.words.find(' '));
+            for (std::size_t at = 0; (at = name.find('-', at)) != std::string::npos; at += 2)
+                name.insert(at, 1, '\\');
+            CHECK(page.find(".TP\n\\fB" + name + "\\fR") != std::string::npos);
+        }
+    }
+    CHECK_THROWS_WITH_AS((void)manual_text("paint"), "help man: there is no command paint",
+                         UsageError);
+}

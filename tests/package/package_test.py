@@ -26,7 +26,8 @@ def pixels(picture):
 def main(cmake, build, program):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        run([cmake, "--install", build, "--prefix", folder / "prefix", "--component", "library"])
+        for component in ("library", "development", "data"):
+            run([cmake, "--install", build, "--prefix", folder / "prefix", "--component", component])
         project = shutil.copytree(pathlib.Path(__file__).parent, folder / "project")
         run([cmake, "-S", project, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}", "-DCMAKE_BUILD_TYPE=Release"])
         run([cmake, "--build", folder / "build"])

@@ -5,7 +5,7 @@
     run_tests.py FOLDER TEST.py ...                runs tests in that environment
 
 What is built is not compiled again: the wheel is what the install component "python" holds, with the metadata of pyproject.toml."""
-import base64, csv, hashlib, importlib.util, io, pathlib, shutil, subprocess, sys, sysconfig, venv, zipfile
+import base64, csv, hashlib, importlib.util, io, os, pathlib, shutil, subprocess, sys, sysconfig, venv, zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROJECT = ROOT / "apps/python"
@@ -75,7 +75,12 @@ def main(first, *words):
     if first == "wheel":
         return make_environment(*words)
     tests = [ROOT / "tests/python" / name for name in words]
-    done = subprocess.run([pathlib.Path(first) / "environment/bin/python", "-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", *tests], cwd=first)
+    environment = dict(os.environ)
+    if "LIGHTWALK_PRELOAD" in environment:  # of a sanitizer, which finds what the interpreter keeps to its end
+        environment["LD_PRELOAD"] = environment["LIGHTWALK_PRELOAD"]
+        environment["ASAN_OPTIONS"] = environment.get("ASAN_OPTIONS", "") + ":detect_leaks=0"
+    done = subprocess.run([pathlib.Path(first) / "environment/bin/python", "-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", *tests],
+                          cwd=first, env=environment)
     sys.exit(done.returncode)
 
 
