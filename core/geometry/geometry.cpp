@@ -148,7 +148,10 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options,
 /// No number of threads is set: it would limit oneTBB in the whole process.
 void Geometry::Impl::open_device(const std::string& options) {
     device.reset(rtcNewDevice(options.c_str()));
-    if (!device) throw std::runtime_error("Embree does not start on this machine");
+    if (!device)  // one device takes a key of each thread's own memory, of which a process has 1024
+        throw InputError(
+            "Embree opens no more scenes: this process has some thousand open, or cannot start "
+            "Embree at all");
     rtcSetDeviceErrorFunction(
         device.get(),
         [](void* message, RTCError, const char* text) {

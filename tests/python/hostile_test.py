@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import os
 import random
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 import lightwalk
 from conftest import ROOM, VIEW
 
-CALLS = 10_000
+CALLS = 10_000 // int(os.environ.get("LIGHTWALK_TEST_SHARE", 1))  # a share with sanitizers
 
 
 class Hostile:

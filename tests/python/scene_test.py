@@ -1,6 +1,7 @@
 """Scenes from files, from bytes, and built in code; what is wrong with them has a place."""
 
 import inspect
+import os
 import pathlib
 import warnings
 
@@ -159,6 +160,7 @@ def test_commands_in_scenes_do_not_run_unless_allowed(tmp_path):
     assert (tmp_path / "made").exists()
 
 
+@pytest.mark.skipif("LIGHTWALK_PRELOAD" in os.environ, reason="sanitizers keep for a while what is freed")
 def test_a_thousand_scenes_leave_no_memory_behind():
     # The memory that is in use after the first hundreds is what there is at the end, but for a byte a ray.
     grown = in_new_process("""
@@ -188,6 +190,26 @@ for k in range(1000):
 print(in_use() - before)
 """)
     assert int(grown) < 4 << 20, grown  # where each fifth scene is kept it is 80 MB
+
+
+def test_too_many_open_scenes_are_refused_by_a_sentence():
+    # Embree keeps a key of each thread's own memory for every scene, of which a process has 1024.
+    told = in_new_process("""
+import lightwalk
+kept = []
+try:
+    for _ in range(1100):
+        scene = lightwalk.Scene()
+        scene.light("lamp", 1)
+        scene.sphere("lamp", (0, -3, 0), 1)
+        kept.append(scene.load())
+    print("all")
+except lightwalk.InputError as error:
+    print(error)
+kept.pop()
+scene.load()
+""")
+    assert "Embree opens no more scenes" in told, told
 
 
 def test_options_are_those_of_the_command(room):
