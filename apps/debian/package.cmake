@@ -53,13 +53,13 @@ function(add_debian_package component name)
   set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} PARENT_SCOPE)
 endfunction()
 set(library_package liblightwalk${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+file(WRITE ${debian}/shlibs "liblightwalk ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} ${library_package} (>= ${PROJECT_VERSION})\n")
 add_debian_package(program lightwalk SECTION graphics DEPENDS "lightwalk-data ${exact}, ${library_package} ${exact}" SUGGESTS "lightwalk-mpi, ffmpeg"
   TEXT "light in buildings that do not exist yet" "Renders scenes of Radiance on all cores, and on many machines: pictures, rays," "daylight coefficients, and walks through a building in a browser.")
 add_debian_package(data lightwalk-data SECTION graphics ARCHITECTURE all
   TEXT "function files and a demo scene of Lightwalk" "What scenes refer to without bringing it with them: sky distributions," "lens functions and the like; and a lodge in the mountains to walk through.")
-add_debian_package(library ${library_package} SECTION libs DEPENDS "lightwalk-data ${exact}" CONTROL ${CMAKE_CURRENT_LIST_DIR}/triggers
+add_debian_package(library ${library_package} SECTION libs DEPENDS "lightwalk-data ${exact}" CONTROL ${CMAKE_CURRENT_LIST_DIR}/triggers ${debian}/shlibs
   TEXT "rendering of Radiance scenes, as a library" "What the program lightwalk is made of, for programs that render by themselves," "and what it loads to read and write EXR, PNG and JPEG pictures.")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 add_debian_package(mpi lightwalk-mpi SECTION graphics DEPENDS "openmpi-bin, lightwalk ${exact}"
   TEXT "Lightwalk on many machines" "What lets several processes render one picture or walk together, started by" "Open MPI's mpirun.")
 add_debian_package(development liblightwalk-dev SECTION libdevel
@@ -69,17 +69,20 @@ add_debian_package(development liblightwalk-dev SECTION libdevel
 # The Python package, for the system's Python. It finds program, modules and library by links.
 if(TARGET lightwalk_python)
   set(packages lib/python3/dist-packages)
-  set(up ../../../../..)  # from a folder in the package
   set(links ${debian}/links)
-  file(MAKE_DIRECTORY ${links})
-  file(CREATE_LINK ${up}/bin/lightwalk ${links}/lightwalk SYMBOLIC)
-  file(CREATE_LINK ${up}/${CMAKE_INSTALL_LIBDIR}/lightwalk/liblightwalk_openimageio.so ${links}/liblightwalk_openimageio.so SYMBOLIC)
-  file(CREATE_LINK ${up}/${CMAKE_INSTALL_DATADIR}/lightwalk ${links}/share SYMBOLIC)
+  # A link in a folder of the package to what another package has.
+  function(add_link folder name place)
+    file(RELATIVE_PATH way /usr/${packages}/lightwalk/${folder} /usr/${place})
+    file(MAKE_DIRECTORY ${links}/${folder})
+    file(CREATE_LINK ${way} ${links}/${folder}/${name} SYMBOLIC)
+    install(FILES ${links}/${folder}/${name} DESTINATION ${packages}/lightwalk/${folder} COMPONENT debian_python EXCLUDE_FROM_ALL)
+  endfunction()
+  add_link(bin lightwalk bin/lightwalk)
+  add_link(bin liblightwalk_openimageio.so ${CMAKE_INSTALL_LIBDIR}/lightwalk/liblightwalk_openimageio.so)
+  add_link(share lightwalk ${CMAKE_INSTALL_DATADIR}/lightwalk)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/python/lightwalk/ DESTINATION ${packages}/lightwalk COMPONENT debian_python EXCLUDE_FROM_ALL
     FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   install(TARGETS lightwalk_python LIBRARY DESTINATION ${packages}/lightwalk/bin COMPONENT debian_python EXCLUDE_FROM_ALL)
-  install(FILES ${links}/lightwalk ${links}/liblightwalk_openimageio.so DESTINATION ${packages}/lightwalk/bin COMPONENT debian_python EXCLUDE_FROM_ALL)
-  install(FILES ${links}/share DESTINATION ${packages}/lightwalk/share RENAME lightwalk COMPONENT debian_python EXCLUDE_FROM_ALL)
   file(WRITE ${debian}/METADATA "Metadata-Version: 2.1\nName: lightwalk\nVersion: ${PROJECT_VERSION}\nRequires-Dist: numpy\n")
   install(FILES ${debian}/METADATA DESTINATION ${packages}/lightwalk-${PROJECT_VERSION}.dist-info COMPONENT debian_python EXCLUDE_FROM_ALL)
   math(EXPR next "${Python_VERSION_MINOR} + 1")
