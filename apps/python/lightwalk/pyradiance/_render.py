@@ -16,8 +16,8 @@ from ._programs import ProgramError, run
 from .model import Primitive, Scene, parts_of
 from .rad_params import RayParams, View, get_ray_params_args, get_view_args
 
-# What rad(1) gives rpict and rtrace alike.
-_OPTIONS = ("-dp", "-ar", "-ms", "-ds", "-dt", "-dc", "-dr", "-ss", "-st", "-aa", "-ad", "-as", "-av", "-lr", "-lw", "-ab")
+# What rad(1) gives rpict and rtrace alike, in its order.
+_OPTIONS = ("-dp", "-ar", "-ms", "-ds", "-dt", "-dc", "-dr", "-ss", "-st", "-ab of its own", "-af", "-aa", "-ad", "-as", "-av", "-lr", "-lw", "-ab")
 
 
 def render(scene: Scene, view: View | None = None, quality: str = "Medium", variability: str = "Medium", detail: str = "Medium", nproc: int = 1,
@@ -47,8 +47,7 @@ def render(scene: Scene, view: View | None = None, quality: str = "Medium", vari
     scene.build()
     width, height = resolution or (512, 512)
     size = run("vwrays", ["-c", 1, "-pj", 0, "-pd", 0, "-pa", 1, "-x", width, "-y", height, "-d", *seen]).decode().split()
-    kept = ambcache and ambbounce > 0
-    words = [*(["-af", f"{scene.sid}.amb"] if kept else []), *_light(scene, view or scene.views[0], quality, variability, detail, ambbounce, ambcache)]
+    words = _light(scene, view or scene.views[0], quality, variability, detail, ambbounce, ambcache)
     words += get_ray_params_args(params) if params is not None else []
     if nproc == 1 and ncssamp == 3:
         return run("rpict", [*seen, *size[:4], "-ps", 1, *words, scene.octree], messages="drop")
@@ -63,8 +62,7 @@ def _light(scene: Scene, view: View, quality: str, variability: str, detail: str
     # An eye counts as inside, as pyradiance has it, in the sphere around the box.
     inside = math.dist(view.vp, [(low + high) / 2 for low, high in zip(lower, upper)]) <= math.dist(lower, upper) / 2
     zone = " ".join(f"{low:.6g} {high:.6g}" for low, high in zip(lower, upper))
-    lines = [f"ZONE= {'I' if inside else 'E'} {zone}", f"QUALITY= {quality}", f"VARIABILITY= {variability}", f"DETAIL= {detail}",
-             f"render= -ab {int(ambbounce)}{'' if ambcache else ' -aa 0'}"]
+    lines = [f"ZONE= {'I' if inside else 'E'} {zone}", f"QUALITY= {quality}", f"VARIABILITY= {variability}", f"DETAIL= {detail}"]
     if any("\n" in line for line in lines):
         raise InputError("render: quality, variability and detail are one word each")
     with tempfile.TemporaryDirectory(prefix="lightwalk-") as folder:
@@ -80,7 +78,23 @@ def _light(scene: Scene, view: View, quality: str, variability: str, detail: str
     edge = _cube_edge(scene.octree) or max(upper[axis] - lower[axis] for axis in range(3))
     mean = sum(upper[axis] - lower[axis] for axis in range(3)) / 3
     found["-ar"] = ["-ar", str(int(min(int(found["-ar"][1]) * (edge / mean if mean > 0 else 1), 1 << 30)))]
-    return [word for option in _OPTIONS for word in found[option] if option != "-ms" or float(found[option][1]) > 0]
+    found["-ab"] = ["-ab", str(int(ambbounce))] if ambcache else ["-ab", str(int(ambbounce)), "-aa", "0"]
+    found["-af"] = ["-af", f"{scene.sid}.amb"] if ambcache and ambbounce > 0 else []
+    found["-ab of its own"] = ["-ab", "1"] if quality[:1] in ("h", "H") else []  # the last one counts
+    if float(found["-ms"][1]) == 0:
+        found["-ms"] = []
+    return [_as_rad_writes(option, word) for option in _OPTIONS for word in found[option]]
+
+
+def _as_rad_writes(option: str, word: str) -> str:
+    """A word of an option; its numbers stand in pictures' headers."""
+    if option == "-af" or word[1:2].isalpha():
+        return word
+    if option == "-lw" and 0 < float(word) < .001:
+        mantissa, exponent = f"{float(word):e}".split("e")
+        return f"{float(mantissa):g}e{int(exponent)}"
+    text = f"{float(word):g}"
+    return text[1:] if text.startswith("0.") and option not in ("-ms", "-av") else text
 
 
 def _bounds(scene: Scene) -> tuple[Sequence[float], Sequence[float]]:
