@@ -1,15 +1,19 @@
 """lightwalk.pyradiance: pyradiance's functions run the same command lines, and the values beside them are the same."""
 
+import copy
 import datetime
 import importlib.util
 import inspect
 import os
 import pathlib
+import pickle
+import random
 import shlex
 import subprocess
 import sys
 import xml.etree.ElementTree
 
+import numpy as np
 import pytest
 
 import lightwalk
@@ -108,8 +112,10 @@ def test_where_pyradiance_loses_arguments_they_count(recorder):
 @pytest.mark.parametrize(("call", "kind"), [
     ("gensky(altitude=3)", ValueError), ("gendaylit()", ValueError), ("genprism('m', 'n')", ValueError), ("genprism('m', 'n', [0, 0, 1, 0, 1])", ValueError),
     ("genprism('m', 'n', [0, 0, 1, 0])", ValueError), ("genprism('m', 'n', [0] * 6, vfile='v')", ValueError), ("vwrays()", ValueError),
-    ("genprism('m', 'n', [0] * 6, lvect=(1, 2))", ValueError), ("falsecolor('a.hdr', contour='x')", ValueError), ("getinfo('a.hdr', 'b', strip_header=True)", ValueError),
-    ("getinfo('a.hdr', b'')", TypeError), ("get_header(5)", TypeError), ("get_image_dimensions('a.hdr')", ValueError), ("evalglare(5)", TypeError), ("pvalue(5)", TypeError),
+    ("genprism('m', 'n', [0] * 6, lvect=(1, 2))", ValueError), ("falsecolor('a.hdr', contour='x')", ValueError), ("gensky('noon')", TypeError),
+    ("getinfo('a.hdr', 'b', strip_header=True)", ValueError), ("parse_primitive(5)", TypeError), ("genbox('m', 'n', 1, 2, [3])", TypeError),
+    ("getinfo('a.hdr', b'')", TypeError), ("get_header(5)", TypeError), ("get_image_dimensions('a.hdr')", ValueError), ("evalglare(5)", TypeError),
+    ("pvalue(5)", TypeError),
     ("oconv(stdin='text')", TypeError), ("oconv(b'scene')", TypeError), ("rtrace('text', 'a.oct')", TypeError), ("rtrace(b'', b'octree')", TypeError),
     ("rpict('-vf v.vf', 'a.oct')", TypeError), ("rpict([], 'a.oct', params='-ab 2')", TypeError), ("Rcontrib('text', 'a.oct')()", TypeError),
     ("Rcontrib(b'', 'a.oct').add_modifier()", ValueError), ("Rcontrib(b'', 'a.oct').add_modifier('m', 'file')", ValueError), ("Xform(5)()", TypeError),
@@ -125,6 +131,23 @@ def test_what_is_wrong_is_an_exception(recorder, call, kind):
     assert not os.path.exists("b")
 
 
+def test_any_values_are_taken_or_refused(recorder):
+    values = (None, True, 0, -1.5, 1 << 70, float("nan"), "", "a b", "\0", b"\xff", [], ["x", 1], (1, 2, 3), {}, object(), pathlib.Path("p"), pr.View(), int,
+              datetime.datetime.max, np.zeros(3), np.float32(2), np.array(["x"]))
+    functions = [getattr(pr, name) for name in pr.__all__ if name not in ("Scene", "render", "write") and not name.startswith(("set_", "ray_"))
+                 and not (isinstance(getattr(pr, name), type) and issubclass(getattr(pr, name), Exception))]
+    dice = random.Random(1)
+    for _ in range(5000):
+        function = dice.choice(functions)
+        names = list(inspect.signature(function).parameters)
+        try:
+            result = function(*dice.choices(values, k=dice.randint(0, 3)), **{name: dice.choice(values) for name in names[3:] if dice.random() < .3})
+            if callable(result):
+                result()
+        except (TypeError, ValueError, OSError, lightwalk.Error):
+            pass
+
+
 def test_a_program_that_fails_is_an_exception_with_its_message(monkeypatch, tmp_path):
     program = tmp_path / "program"
     program.write_text('#!/bin/sh\necho "$0 $*" >&2\n[ "$1" = - ] || exit 3\n')
@@ -134,6 +157,7 @@ def test_a_program_that_fails_is_an_exception_with_its_message(monkeypatch, tmp_
         pr.oconv("a.rad", warning=False)
     assert isinstance(caught.value, RuntimeError) and isinstance(caught.value, lightwalk.Error)
     assert (caught.value.program, caught.value.returncode) == ("oconv", 3) and "-w a.rad" in caught.value.stderr
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
     with pytest.warns(lightwalk.LightwalkWarning, match=" -$"):
         assert pr.oconv(stdin=b"void") == b""
     with pytest.raises(lightwalk.InputError, match="null byte"):
@@ -161,11 +185,15 @@ def test_a_view_is_what_its_words_tell():
     assert shlex.join(pr.get_view_args(view)) == DEFAULT_VIEW == shlex.join(pr.get_view_args(pr.View())) == shlex.join(pr.get_view_args(pr.parse_view("")))
     view.type, view.vp, view.hoff = "l", [1, 2.5, 1 / 3], 1e-3
     assert (view.type, view.vp, view.hoff, view.vdir) == ("l", (1, 2.5, 1 / 3), 1e-3, (0, 1, 0))
+    other = pickle.loads(pickle.dumps(copy.copy(view)))
+    other.vp = (0, 0, 1)
+    assert (other.type, other.hoff, view.vp) == ("l", 1e-3, (1, 2.5, 1 / 3))
     assert repr(view) == " -vtl -vp 1 2.5 0.333333 -vd 0 1 0 -vu 0 0 1 -vh 45 -vv 45 -vo 0 -va 0 -vs 0.001 -vl 0"
     parsed = pr.parse_view("VIEW= -vtl -vp 1 2.5 .3 -x 100 -vd 0 0 -1 -vu 0 1 0 -vh 30 -vv 20 -vs .1 -vl .2 -vo 1 -va 9")
     assert [getattr(parsed, name) for name in parsed.__dir__()] == ["l", (1, 2.5, .3), (0, 0, -1), (0, 1, 0), 30, 20, .1, .2, 1, 9]
     for name, value, kind in (("type", "x", ValueError), ("type", "ab", TypeError), ("vp", (1, 2), TypeError), ("vp", "123", TypeError), ("vp", 1, TypeError),
-                              ("horiz", "1", TypeError), ("horiz", float("nan"), ValueError), ("vdir", (0, 0, float("inf")), ValueError), ("eye", 1, AttributeError)):
+                              ("horiz", "1", TypeError), ("horiz", float("nan"), ValueError), ("vdir", (0, 0, float("inf")), ValueError),
+                              ("eye", 1, AttributeError)):
         with pytest.raises(kind, match=name):
             setattr(view, name, value)
 
@@ -188,6 +216,7 @@ def test_ray_parameters_are_values():
     changed = shlex.join(pr.get_ray_params_args(params))
     assert changed.startswith("-bv -dt") and "-dp 512 -ds" in changed and "-lw 0.000100 -i+ -av 1.000000 2.000000 3.000000" in changed
     assert "-as 7 -ab 0 -ai a -ai b -af f.amb -me" in changed
+    assert pr.get_ray_params_args(pickle.loads(pickle.dumps(params))) == pr.get_ray_params_args(copy.deepcopy(params)) == shlex.split(changed)
     pr.set_ray_params(params)
     params.amblist.append("c")
     assert pr.get_ray_params().amblist == ["a", "b"] and pr.get_ray_params().ambincl == 1
@@ -294,10 +323,10 @@ def test_the_program_answers_by_name(by_name, room_file, monkeypatch, tmp_path):
         pr.rtrace(rays, "none.oct")
 
 
-# Of pyradiance's own tests those that are not covered, and why.
+# Of pyradiance's own tests those that are not covered, and what they call.
 NOT_COVERED = {
-    "test_load_material_smd": "load_material_smd: spectra", "test_rfluxmtx": "rfluxmtx", "test_ra_tiff": "ra_tiff", "test_genbsdf": "generate_bsdf",
-    "test_rtrace": "RtraceSimulManager", "test_rcontrib": "RcontribSimulManager"}
+    "TestPyradianceAPI.test_load_material_smd": "load_material_smd", "TestPyradianceCLI.test_rfluxmtx": "rfluxmtx", "TestPyradianceCLI.test_ra_tiff": "ra_tiff",
+    "TestPyradianceCLI.test_genbsdf": "ShadingMaterial", "TestRtraceSimulManager.test_rtrace": "", "TestRcontribSimulManager.test_rcontrib": ""}
 
 
 def test_pyradiances_own_tests_pass(by_name, tmp_path):
@@ -307,12 +336,16 @@ def test_pyradiances_own_tests_pass(by_name, tmp_path):
         "import sys, lightwalk.pyradiance as package\n"
         "from lightwalk.pyradiance import model\n"
         "sys.modules.update({'pyradiance': package, 'pyradiance.model': model})\n")
-    files = [str(file) for file in sorted(pathlib.Path(SUITE).glob("test_*.py")) if file.name not in ("test_bind.py", "test_bsdf.py")]  # scripts
-    subprocess.run([sys.executable, "-B", "-m", "pytest", "-q", "-p", "as_pyradiance", "-p", "no:cacheprovider", "--junit-xml=report.xml", *files], cwd=tmp_path,
-                   env=os.environ | {"PYTHONPATH": str(tmp_path)}, check=False)
-    failed = []
+    files = [str(file) for file in sorted(pathlib.Path(SUITE).glob("test_*.py")) if file.name not in ("test_bind.py", "test_bsdf.py")]  # no tests, scripts
+    done = subprocess.run([sys.executable, "-B", "-m", "pytest", "-q", "-p", "as_pyradiance", "-p", "no:cacheprovider", "--junit-xml=report.xml", *files],
+                          cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, check=False)
+    passed, failed = [], []
     for case in xml.etree.ElementTree.parse(tmp_path / "report.xml").iter("testcase"):
-        if case.find("failure") is not None or case.find("error") is not None:
-            covered = case.get("name") not in NOT_COVERED or "TestPyradianceCLI.test_rcontrib" in case.get("classname") + "." + case.get("name")
-            failed += [case.get("name")] if covered else []
-    assert not failed
+        name = case.get("classname").split(".")[-1] + "." + case.get("name")
+        problem = case.find("failure") if case.find("failure") is not None else case.find("error")
+        if problem is None:
+            passed.append(name)
+        elif name not in NOT_COVERED or f"has no {NOT_COVERED[name]}" not in problem.get("message") + (problem.text or ""):
+            failed.append(name)
+    print(f"{len(passed)} of pyradiance's tests pass")
+    assert not failed and len(passed) >= 60, done.stdout

@@ -22,13 +22,14 @@ _SENTENCES = {
                "calcontext eval initfunc loadfunc set_eparams rsensor radiance_ext"),
     "_PICTURE": "ra_ppm ra_rgbe ra_tiff ra_xyze pvaluer",
     "_BUILT_IN": "ies2rad obj2rad",
-    "_SPECTRAL": "genssky gensdaymtx load_material_smd setspectrsamp spec_xyz xyz_rgb",
+    "_SPECTRAL": "genssky gensdaymtx setspectrsamp spec_xyz xyz_rgb",
 }
 _SINGLE = {
     "BINPATH": "`lightwalk install-names FOLDER` makes a folder of the programs",
     "Resolu": "use get_image_dimensions()",
     "gendaymtx": "use Radiance's own program, and multiply its matrix by what Rcontrib or lightwalk.Scene.contrib(...) return",
     "getbbox": "use lightwalk.Scene.from_files(...).bounds",
+    "load_material_smd": "scenes may hold the spectrum itself: a \"spectrum\" primitive as the modifier of a material",
     "mkpmap": "there are no photon maps; indirect light is that of -ab",
     "obj2mesh": "scenes take object files as they are: \"mesh\" primitives, and files on the command line",
     "pcond": "use --tone and --exposure of lightwalk render, and .png or .jpg",

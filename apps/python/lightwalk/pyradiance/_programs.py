@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import os
 import subprocess
 import warnings
@@ -28,6 +29,9 @@ class ProgramError(Error, RuntimeError):
         self.program = program
         self.returncode = returncode
         self.stderr = stderr
+
+    def __reduce__(self) -> tuple[Any, ...]:  # it crosses processes with what it says
+        return type(self), (self.program, self.returncode, self.stderr)
 
 
 def executable(name: str) -> str:
@@ -77,7 +81,7 @@ def word_of(value: Any) -> str:
     """
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
-    if isinstance(value, (bytes, bytearray)) or value is None:
+    if not isinstance(value, (str, numbers.Number)):
         raise TypeError(f"expected a text, a number or a path, found {value!r:.60}")
     return str(value)
 

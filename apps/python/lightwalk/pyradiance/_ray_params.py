@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import copy
-import math
 from typing import Any, Iterable, Sequence
 
-from .._errors import InputError, OptionError
+from .._errors import OptionError
+from ._values import Values, number, three_numbers
 
 # Names in the order of the words on a command line; each with its default, whose kind it keeps.
 _DEFAULTS: dict[str, Any] = {
@@ -15,7 +15,7 @@ _DEFAULTS: dict[str, Any] = {
     "ma": (0.0, 0.0, 0.0), "mg": 0.0, "ms": 0.0}
 
 
-class RayParams:
+class RayParams(Values):
     """The options' values, named as the options (as_ is -as), with pyradiance's defaults.
 
     Attributes:
@@ -28,40 +28,21 @@ class RayParams:
         amblist: names of modifiers
     Raises:
         TypeError: values of other kinds
-        InputError: numbers that are not finite
+        ValueError: numbers that are not finite
         AttributeError: another attribute
     """
 
-    __slots__ = ("_values",)
+    __slots__ = ()
 
     def __init__(self) -> None:
-        object.__setattr__(self, "_values", {**_DEFAULTS, "ambincl": -1, "amblist": []})
+        super().__init__({**_DEFAULTS, "ambincl": -1, "amblist": []})
 
-    def __getattr__(self, name: str) -> Any:
-        if not name.startswith("_") and name in self._values:
-            return self._values[name]
-        raise AttributeError(f"'RayParams' object has no attribute {name!r}")
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name not in self._values:
-            raise AttributeError(f"'RayParams' object has no attribute {name!r}")
+    def _checked(self, name: str, value: Any) -> Any:
         if name == "ambincl":
-            self._values[name] = int(_checked(name, True, value)) if value != -1 else -1
-        elif name == "amblist":
-            self._values[name] = _names(value)
-        else:
-            self._values[name] = _checked(name, _DEFAULTS[name], value)
-
-    def __copy__(self) -> "RayParams":
-        other = RayParams()
-        other._values.update(self._values, amblist=list(self._values["amblist"]))
-        return other
-
-    def __deepcopy__(self, _: Any) -> "RayParams":
-        return copy.copy(self)
-
-    def __dir__(self) -> list[str]:
-        return sorted(self._values)
+            return -1 if isinstance(value, int) and value == -1 else int(_like(name, True, value))
+        if name == "amblist":
+            return _names(value)
+        return _like(name, _DEFAULTS[name], value)
 
 
 def _names(value: Any) -> list[str]:
@@ -71,36 +52,23 @@ def _names(value: Any) -> list[str]:
     return names
 
 
-def _checked(name: str, like: Any, value: Any) -> Any:
+def _like(name: str, like: Any, value: Any) -> Any:
     """A value of the kind of `like`."""
+    what = f"RayParams.{name}"
+    if isinstance(like, tuple):
+        return three_numbers(what, value)
+    if isinstance(like, float):
+        return number(what, value)
     if isinstance(like, bool):
-        if isinstance(value, (bool, int)) and value in (0, 1) or type(value).__name__ in ("bool", "bool_"):
+        if (isinstance(value, (bool, int)) and value in (0, 1)) or type(value).__name__ in ("bool", "bool_"):
             return bool(value)
     elif isinstance(like, int):
         if hasattr(value, "__index__") and not isinstance(value, bool):
             return int(value)
-    elif isinstance(like, float):
-        return _number(name, value)
-    elif isinstance(like, tuple):
-        values = tuple(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else ()
-        if len(values) == 3:
-            return tuple(_number(name, one) for one in values)
     elif isinstance(value, str):
         return value
-    kind = {bool: "True or False", int: "an integer", tuple: "three numbers", str: "a text"}[type(like)]
-    raise TypeError(f"RayParams.{name}: expected {kind}, found {value!r:.60}")
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        if isinstance(value, (str, bytes, bool)):
-            raise TypeError
-        number = float(value)
-    except (TypeError, ValueError, OverflowError) as problem:
-        raise TypeError(f"RayParams.{name}: expected a number, found {value!r:.60}") from problem
-    if not math.isfinite(number):
-        raise InputError(f"RayParams.{name}: {number} is not finite")
-    return number
+    kind = {bool: "True or False", int: "an integer", str: "a text"}[type(like)]
+    raise TypeError(f"{what}: expected {kind}, found {value!r:.60}")
 
 
 def get_default_ray_params() -> RayParams:

@@ -43,11 +43,12 @@ def render(scene: Scene, view: View | None = None, quality: str = "Medium", vari
     """
     if view is None and not scene.views:
         raise InputError(f"render: the scene {scene.sid!r} has no view, and none is given")
-    seen = get_view_args(scene.views[0] if view is None else view)
+    view = scene.views[0] if view is None else view
+    seen = get_view_args(view)
     scene.build()
     width, height = resolution or (512, 512)
     size = run("vwrays", ["-c", 1, "-pj", 0, "-pd", 0, "-pa", 1, "-x", width, "-y", height, "-d", *seen]).decode().split()
-    words = _light(scene, view or scene.views[0], quality, variability, detail, ambbounce, ambcache)
+    words = _light(scene, view, quality, variability, detail, ambbounce, ambcache)
     words += get_ray_params_args(params) if params is not None else []
     if nproc == 1 and ncssamp == 3:
         return run("rpict", [*seen, *size[:4], "-ps", 1, *words, scene.octree], messages="drop")

@@ -12,6 +12,8 @@ def _moment(function: str, dt: datetime | None, latitude: float | None, longitud
             azimuth: float | None, year: int | None) -> list[Any]:
     """Where the sun is, by the time and the place or by its angles."""
     if dt is not None:
+        if not isinstance(dt, datetime):
+            raise TypeError(f"{function}: expected a datetime, found {type(dt).__name__}")
         hour = dt.hour + dt.minute / 60 + (dt.second / 3600 if function.endswith("gendaylit") else 0)  # as pyradiance has it
         return [dt.month, dt.day, hour, *options(a=latitude, o=longitude, m=timezone, y=year)]
     if altitude is None or azimuth is None:
@@ -41,6 +43,7 @@ def gensky(dt: datetime | None = None, latitude: float | None = None, longitude:
         turbidity: Linke's
     Raises:
         ValueError: neither a time nor the sun's angles
+        TypeError: `dt` is no datetime
         ProgramError: for values that no sky has
     """
     words = _moment("pyradiance.gensky", dt, latitude, longitude, timezone, altitude, azimuth, year)
@@ -70,6 +73,7 @@ def gendaylit(dt: datetime | None = None, latitude: float | None = None, longitu
         interval: of the weather data [min], which the sun's position is corrected by
     Raises:
         ValueError: neither a time nor the sun's angles
+        TypeError: `dt` is no datetime
         ProgramError: for values that no sky has
     """
     words = _moment("pyradiance.gendaylit", dt, latitude, longitude, timezone, altitude, azimuth, year)

@@ -98,7 +98,7 @@ def falsecolor(inp: Input, pic_overlay: str | None = None, contour: str | None =
         ProgramError: for what is no picture, and wrong options
         TypeError: `inp` is neither a path nor bytes
     """
-    if contour is not None and contour not in ("b", "l", "p"):
+    if contour is not None and (not isinstance(contour, str) or contour not in ("b", "l", "p")):
         raise ValueError("Invalid value for contour. Allowed values are 'b', 'l', or 'p'.")
     file, stdin = file_or_bytes("inp", inp)
     words: list[Any] = [*(["-i", *file] if file else []), *options(p=pic_overlay), *([f"-c{contour}"] if contour is not None else [])]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import os
 from typing import Any
 
 from .._errors import InputError
 from ._programs import Path
-from ._ray_params import (RayParams, get_default_ray_params, get_ray_params, get_ray_params_args, ray_done, set_option,
-                          set_ray_params)
+from ._ray_params import RayParams, get_default_ray_params, get_ray_params, get_ray_params_args, ray_done, set_option, set_ray_params
+from ._values import Values, number, three_numbers
 
 __all__ = ["RayParams", "View", "ViewFileError", "create_default_view", "get_default_ray_params", "get_ray_params", "get_ray_params_args",
            "get_view_args", "parse_view", "ray_done", "set_option", "set_ray_params", "viewfile"]
@@ -23,7 +22,7 @@ class ViewFileError(InputError, RuntimeError):
     """A file without a view."""
 
 
-class View:
+class View(Values):
     """A view, with Radiance's defaults.
 
     Attributes:
@@ -34,70 +33,31 @@ class View:
         vfore, vaft: nothing nearer, nothing farther is seen [m]; 0: no limit
     Raises:
         TypeError: values of other kinds
-        InputError: another type of view, numbers that are not finite
+        ValueError: another type of view, numbers that are not finite
         AttributeError: another attribute
     """
 
-    __slots__ = ("_type", "_values")
+    __slots__ = ()
 
     def __init__(self) -> None:
-        self._type = "v"
-        self._values: dict[str, Any] = {"vp": (0.0, 0.0, 0.0), "vdir": (0.0, 1.0, 0.0), "vu": (0.0, 0.0, 1.0), "horiz": 45.0, "vert": 45.0, "hoff": 0.0,
-                                        "voff": 0.0, "vfore": 0.0, "vaft": 0.0}
+        super().__init__({"type": "v", "vp": (0.0, 0.0, 0.0), "vdir": (0.0, 1.0, 0.0), "vu": (0.0, 0.0, 1.0), "horiz": 45.0, "vert": 45.0, "hoff": 0.0,
+                          "voff": 0.0, "vfore": 0.0, "vaft": 0.0})
 
-    def __getattr__(self, name: str) -> Any:
-        if name == "type":
-            return self._type
-        if not name.startswith("_") and name in self._values:
-            return self._values[name]
-        raise AttributeError(f"'View' object has no attribute {name!r}")
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name in View.__slots__:
-            object.__setattr__(self, name, value)
-        elif name == "type":
-            if not isinstance(value, str):
-                raise TypeError(f"View.type: expected one letter of {_TYPES!r}, found {value!r:.60}")
-            if len(value) != 1 or value not in _TYPES:
-                raise (TypeError if len(value) != 1 else InputError)(f"View.type: expected one letter of {_TYPES!r}, found {value!r:.60}")
-            self._type = value
-        elif name in _VECTORS.values():
-            self._values[name] = _three(name, value)
-        elif name in _NUMBERS.values():
-            self._values[name] = _number(name, value)
-        else:
-            raise AttributeError(f"'View' object has no attribute {name!r}")
-
-    def __dir__(self) -> list[str]:
-        return ["type", *self._values]
+    def _checked(self, name: str, value: Any) -> Any:
+        if name in _VECTORS.values():
+            return three_numbers(f"View.{name}", value)
+        if name in _NUMBERS.values():
+            return number(f"View.{name}", value)
+        if not isinstance(value, str) or len(value) != 1:
+            raise TypeError(f"View.type: expected one letter of {_TYPES!r}, found {value!r:.60}")
+        if value not in _TYPES:
+            raise ValueError(f"View.type: expected one letter of {_TYPES!r}, found {value!r}")
+        return value
 
     def __repr__(self) -> str:
-        numbers = {option: _NUMBERS[option] for option in ("-vh", "-vv", "-vo", "-va", "-vs", "-vl")}
-        words = [f"-vt{self._type}", *(f"{option} {' '.join(f'{value:g}' for value in self._values[name])}" for option, name in _VECTORS.items()),
-                 *(f"{option} {self._values[name]:g}" for option, name in numbers.items())]
+        words = [f"-vt{self.type}", *(f"{option} {' '.join(f'{value:g}' for value in getattr(self, name))}" for option, name in _VECTORS.items())]
+        words += [f"{option} {getattr(self, _NUMBERS[option]):g}" for option in ("-vh", "-vv", "-vo", "-va", "-vs", "-vl")]
         return " " + " ".join(words)
-
-
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, (str, bytes, bool)):
-        raise TypeError(f"View.{name}: expected a number, found {value!r:.60}")
-    try:
-        number = float(value)
-    except (TypeError, ValueError, OverflowError) as problem:
-        raise TypeError(f"View.{name}: expected a number, found {value!r:.60}") from problem
-    if not math.isfinite(number):
-        raise InputError(f"View.{name}: {number} is not finite")
-    return number
-
-
-def _three(name: str, value: Any) -> tuple[float, ...]:
-    try:
-        numbers = tuple(value)
-    except TypeError as problem:
-        raise TypeError(f"View.{name}: expected three numbers, found {value!r:.60}") from problem
-    if len(numbers) != 3:
-        raise TypeError(f"View.{name}: expected three numbers, found {len(numbers)}")
-    return tuple(_number(name, one) for one in numbers)
 
 
 def create_default_view() -> View:
@@ -144,6 +104,8 @@ def _take_words(view: View, words: list[str]) -> bool:
         option = words[at]
         at += 1
         if option.startswith("-vt") and len(option) > 3:
+            if option[3:] not in tuple(_TYPES):
+                raise InputError(f"option {option}: expected one letter of {_TYPES!r} behind -vt")
             view.type = option[3:]
         elif option in _VECTORS:
             setattr(view, _VECTORS[option], _numbers_at(words, at, 3))
@@ -159,7 +121,7 @@ def _take_words(view: View, words: list[str]) -> bool:
 
 def _numbers_at(words: list[str], at: int, count: int) -> list[float]:
     try:
-        numbers = [float(word) for word in words[at:at + count]]
+        numbers = [number("number", float(word)) for word in words[at:at + count]]
     except ValueError as problem:
         raise InputError(f"option {words[at - 1]}: {problem}") from problem
     if len(numbers) < count:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Sequence
 
-from ._programs import Path, listed, options, run, switches
+from ._programs import Path, listed, options, run, switches, word_of
 
 
 def rpict(view: Sequence[str], octree: Path, xres: int | None = None, yres: int | None = None, report: float = 0,
@@ -71,7 +71,7 @@ def _traced(exclude: str, include: str, exclude_file: Path | None, include_file:
     """The first of rtrace's options -te -ti -tE -tI that is given; -te and -ti take one name each."""
     for option, names in (("-te", exclude), ("-ti", include)):
         if names:
-            return [word for name in names.split() for word in (option, name)]
+            return [word for name in word_of(names).split() for word in (option, name)]
     if exclude_file is not None:
         return ["-tE", exclude_file]
     return ["-tI", include_file] if include_file is not None else []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Iterator, Literal, Sequence
+from typing import Any, Iterable, Iterator, Literal, Sequence
 
 from .._errors import InputError
 from ._programs import Input, Path, file_or_bytes, listed, options, run, switches
@@ -119,8 +119,11 @@ def parse_primitive(pstr: str | bytes) -> list[Primitive]:
         pstr: the text, without commands ("!genbox ..."): Xform writes what they give
     Raises:
         InputError: "line N: what is wrong"
+        TypeError: neither a text nor bytes
     """
-    words = _words(pstr.decode() if isinstance(pstr, bytes) else pstr)
+    if not isinstance(pstr, (str, bytes)):
+        raise TypeError(f"expected a text, found {type(pstr).__name__}")
+    words = _words(pstr.decode(errors="surrogateescape") if isinstance(pstr, bytes) else pstr)
     primitives = []
     for modifier, line in words:
         if modifier.startswith("!"):
@@ -268,7 +271,7 @@ def evalglare(inp: Input, view: list[str] | None = None, detailed: bool = False,
         return run("evalglare", ["-V", *file], stdin, "drop")
     words: list[Any] = switches(d=detailed)
     if ev is not None:
-        words += ["-I", *ev] if isinstance(ev, Sequence) else ["-i", ev]
+        words += ["-I", *ev] if isinstance(ev, Iterable) else ["-i", ev]
     words += [*([f"-{fast}"] if fast is not None else []), *listed("view", view)]
     if check_file is not None:
         words += ["-c", check_file, *(["-u", *source_color] if source_color is not None else [])]
