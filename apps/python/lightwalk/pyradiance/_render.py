@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -12,6 +11,7 @@ from typing import Any, Sequence
 from .._errors import InputError
 from .._scene import Scene as CompiledScene
 from .._walk import PROGRAM
+from ..bin import _core
 from ._programs import ProgramError, run
 from .model import Primitive, Scene, parts_of
 from .rad_params import RayParams, View, get_ray_params_args, get_view_args
@@ -70,7 +70,7 @@ def _light(scene: Scene, view: View, quality: str, variability: str, detail: str
         rad = pathlib.Path(folder) / "scene.rif"
         nothing = pathlib.Path(folder) / "nothing.rad"  # a rad file names a scene, which is not read for this
         nothing.touch()
-        rad.write_text("\n".join([*lines, f"scene= {nothing}"]) + "\n")
+        rad.write_text("\n".join([*lines, f'scene= "{nothing}"']) + "\n")
         done = subprocess.run([str(PROGRAM), "render", str(rad), "-defaults"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if done.returncode:
         raise ProgramError("rad", done.returncode, done.stderr)
@@ -100,14 +100,16 @@ def _as_rad_writes(option: str, word: str) -> str:
 
 def _bounds(scene: Scene) -> tuple[Sequence[float], Sequence[float]]:
     """The corners of the box around a scene's surfaces [m]. Its light sources do not count, unless nothing is there without them."""
-    for parts in ([scene._materials, scene._surfaces], [scene._materials, scene._surfaces, scene._sources]):
+    problem = None
+    for kinds in ([scene.materials, scene.surfaces], [scene.materials, scene.surfaces, scene.sources]):
         try:
-            lower, upper = _bounds_of([part for kind in parts for part in kind.values()])
-        except InputError:
+            lower, upper = _bounds_of([part for kind in kinds for part in kind.values()])
+        except InputError as error:
+            problem = error
             continue
         if all(low <= high for low, high in zip(lower, upper)):
             return [float(f"{low:.6g}") for low in lower], [float(f"{high:.6g}") for high in upper]
-    raise InputError(f"render: the scene {scene.sid!r} has no surfaces whose bounds could be found")
+    raise InputError(f"render: the scene {scene.sid!r} has no surfaces whose bounds could be found") from problem
 
 
 def _bounds_of(parts: Sequence[str | Primitive]) -> tuple[Any, Any]:
@@ -117,7 +119,8 @@ def _bounds_of(parts: Sequence[str | Primitive]) -> tuple[Any, Any]:
             file = pathlib.Path(folder) / "primitives.rad"
             file.write_bytes(text)
             files = [*files, str(file)]
-        return CompiledScene.from_files(*(os.path.abspath(file) for file in files)).bounds
+        # Commands have run for the octree, which told the warnings, too.
+        return _core.Scene(CompiledScene.from_files(*files, allow_commands=True)._complete_source()).bounds()
 
 
 def _cube_edge(octree: str) -> float | None:
