@@ -11,6 +11,7 @@
 #include "apps/session/picture_order.h"
 #include "core/error.h"
 #include "parallel/comm/model_fields.h"
+#include "parallel/executor_task_runner.h"
 
 namespace lightwalk {
 
@@ -227,14 +228,19 @@ double RankBackend::kept_points() const {
 
 /// Nothing: stopped.
 std::optional<AssembledFrame> RankBackend::draw(FrameOrder order, const StopFlag& stop) {
+    // A frame that has a time to end, and is shared out, waits for four messages one after the
+    // other.
+    constexpr double kLongRoundTrip = 0.004;
     order.number = link_.new_number();
+    order.apart = order.budget > 0 && link_.round_trip() > kLongRoundTrip &&
+                  link_.owners().size() == link_.topology().workers.size();
     link_.start({order});
     if (!options_.steered)
         listen_to_rounds(Camera(wire::decode<PictureOrder>(order.payload).view),
                          frame_options(order.width, order.height));
     for (frame_.reset(); !frame_; receive_news(true))
         if (stop.requested()) return std::nullopt;
-    return assemble_frame(order, *frame_);
+    return assemble_frame(order, *frame_, ExecutorTaskRunner(*own_executor_));
 }
 
 /// Handles the news of the link. @param wait  until there is something

@@ -81,8 +81,10 @@ const std::vector<PixelValue>& values_of(const FramePart& part, std::vector<Pixe
     return values;
 }
 
-void put_together(const Parts& parts, int width, AssembledFrame& whole) {
-    for (const FramePart* part : parts) {
+void put_together(const Parts& parts, int width, const TaskRunner& task_runner,
+                  AssembledFrame& whole) {
+    task_runner.run(parts.size(), [&](std::size_t number) {
+        const FramePart* const part = parts[number];
         std::vector<PixelValue> decoded;
         const std::vector<PixelValue>& values = values_of(*part, decoded);
         std::vector<std::uint8_t> known(values.size(), 1);
@@ -95,7 +97,7 @@ void put_together(const Parts& parts, int width, AssembledFrame& whole) {
             whole.frame.distance[at] = values[i].distance;
             whole.frame.known[at] = known[i];
         });
-    }
+    });
 }
 
 std::vector<PixelOrigin> origins_of(const Parts& parts, int width, std::size_t pixels) {
@@ -175,7 +177,8 @@ Frame assemble_picture(const FinishedPicture& picture, int width, int height) {
     return frame;
 }
 
-AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished) {
+AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
+                              const TaskRunner& task_runner) {
     const Parts parts = sorted_parts(order, finished);
     AssembledFrame whole;
     whole.frame.area = {0, 0, order.width, order.height};
@@ -188,7 +191,7 @@ AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& fini
     report.tightness = order.rules.tightness;
     for (const FramePart* part : parts) add_report(part->report, report);
     report.points = std::min(static_cast<std::size_t>(order.most_points), report.points);
-    if (!order.rests) put_together(parts, order.width, whole);
+    if (!order.rests) put_together(parts, order.width, task_runner, whole);
     if (order.tells_origins) whole.frame.origins = origins_of(parts, order.width, pixels);
     put_refined_together(parts, order, whole);
     return whole;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/cloud/cloud_frame.h"
+#include "core/math/task_runner.h"
 #include "parallel/frame.h"
 #include "parallel/work_queue/outbox.h"
 
@@ -25,6 +26,8 @@ struct AssembledFrame {
 };
 
 /// Throws InputError for parts that do not make the frame that was ordered.
-[[nodiscard]] AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished);
+/// @param task_runner  unpacks the parts side by side
+[[nodiscard]] AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
+                                            const TaskRunner& task_runner = SerialTaskRunner());
 
 }  // namespace lightwalk

@@ -57,19 +57,19 @@ class RankFrameExchange final : public FrameExchange {
 
     [[nodiscard]] bool trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
                              Executor& executor, const StopFlag& stop) override {
+        const std::size_t lists = order_.rests ? 0 : beside().size();
+        if (order_.apart) {
+            link_.post(0, UncachedPixels{order_.number, 0, {}});
+            return trace_alone(region, tracer, sample, executor, stop) &&
+                   gather(region, 0, lists, stop);
+        }
         const TraceList& to_trace = region.to_trace();
         UncachedPixels pixels{order_.number, static_cast<std::uint32_t>(to_trace.noise_pairs()),
                               to_trace.places()};
         const std::size_t expected = pixels.places.size();
         link_.post(0, std::move(pixels));
         trace_runs(tracer, sample, executor, stop);
-        const TimedActivity waiting(link_.timeline(), 0, Activity::wait);
-        const std::size_t lists = order_.rests ? 0 : beside().size();
-        const auto mail = inbox_.mail(order_.number, expected, lists, stop);
-        if (!mail) return false;
-        for (const UsedPixels& used : mail->used) region.points().mark_used(used);
-        record(mail->runs, expected, region);
-        return true;
+        return gather(region, expected, lists, stop);
     }
 
     /// All threads trace what comes, whoever owns it, until no more of the frame does.
@@ -113,6 +113,16 @@ class RankFrameExchange final : public FrameExchange {
     }
 
   private:
+    /// What others have traced of the own pixels, and used of the own points.
+    [[nodiscard]] bool gather(CloudRegion& region, std::size_t expected, std::size_t lists,
+                              const StopFlag& stop) {
+        const TimedActivity waiting(link_.timeline(), 0, Activity::wait);
+        const auto mail = inbox_.mail(order_.number, expected, lists, stop);
+        if (!mail) return false;
+        for (const UsedPixels& used : mail->used) region.points().mark_used(used);
+        record(mail->runs, expected, region);
+        return true;
+    }
     [[nodiscard]] std::vector<std::size_t> beside() const {
         return owners_beside(parts_, index_, order_.width, order_.height);
     }

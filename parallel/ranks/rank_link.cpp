@@ -257,6 +257,14 @@ void RankLink::watch(std::vector<std::string> hosts) {
         hosts_ = all;
         pulse_.start(Clock::now());
     });
+    constexpr int kRounds = 4;
+    std::chrono::duration<double> shortest{kHuge};
+    for (int i = 0; i < kRounds; ++i) {
+        const Clock::time_point start = Clock::now();
+        meet();
+        shortest = std::min<std::chrono::duration<double>>(shortest, Clock::now() - start);
+    }
+    round_trip_ = shortest.count();
 }
 
 void RankLink::end_work() {

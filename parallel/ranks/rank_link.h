@@ -136,6 +136,9 @@ class RankLink {
     /// keep a file of them), and another one may begin.
     void end_work();
 
+    /// On rank 0, since agree(): how long it takes at least until all have answered [s]; 0 on one
+    /// machine.
+    [[nodiscard]] double round_trip() const { return round_trip_; }
     [[nodiscard]] Timeline& timeline() { return timeline_; }
     /// What this rank did, but for what only its tracers know. Times are told since agree(), which
     /// returns at about the same moment on all ranks.
@@ -236,6 +239,7 @@ class RankLink {
     SharedCache cache_;
     std::chrono::steady_clock::time_point exchanged_;  ///< when values were, last
     double agreed_ = 0;                                ///< on the timeline
+    double round_trip_ = 0;                            ///< see round_trip()
     std::uint32_t last_number_ = 0;
 
     mutable std::mutex mutex_;  ///< guards what follows

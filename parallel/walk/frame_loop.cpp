@@ -97,8 +97,8 @@ void FrameLoop::refine(CloudRegion& region, std::span<const PixelPlace> places) 
     region.refine(own);
 }
 
-bool NoFrameExchange::trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
-                            Executor& executor, const StopFlag& stop) {
+bool trace_alone(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
+                 Executor& executor, const StopFlag& stop) {
     TraceList& to_trace = region.to_trace();
     const std::vector<PixelPlace> places = to_trace.places();
     const std::size_t own = places.size() - to_trace.noise_pairs();

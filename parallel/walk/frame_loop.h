@@ -37,13 +37,19 @@ class FrameExchange {
     [[nodiscard]] virtual std::optional<AgeCounts> sum(const AgeCounts& mine) = 0;
 };
 
+/// The uncached pixels of a region, by this process alone. False: stopped.
+[[nodiscard]] bool trace_alone(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
+                               Executor& executor, const StopFlag& stop);
+
 /// A process that draws all of the frame.
 class NoFrameExchange final : public FrameExchange {
   public:
     [[nodiscard]] bool exchange_points(CloudRegion&, const StopFlag&) override { return true; }
     void send_used(const CloudRegion&) override {}
     [[nodiscard]] bool trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
-                             Executor& executor, const StopFlag& stop) override;
+                             Executor& executor, const StopFlag& stop) override {
+        return trace_alone(region, tracer, sample, executor, stop);
+    }
     void deliver(const FrameOrder&, CloudRegion&) override {}
     [[nodiscard]] std::optional<AgeCounts> sum(const AgeCounts& mine) override { return mine; }
 };

@@ -30,6 +30,8 @@ struct FrameOrder {
     bool aside = false;          ///< of what lies beside a view that rests, for its points alone
     bool tells_origins = false;  ///< whether parts say where the last frame's pixels come from
     LightMixture mixture;        ///< of the light groups, where these are kept
+    /// Owners trace the uncached pixels of their own parts: to share them out takes longer.
+    bool apart = false;
     friend bool operator==(const FrameOrder&, const FrameOrder&) = default;
 };
 

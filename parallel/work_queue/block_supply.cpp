@@ -16,6 +16,9 @@ constexpr double kLeastSeconds = 0.002;
 /// Share of what is left that a thread is given at once: small enough that all end together
 /// (Polychronopoulos and Kuck, "Guided Self-Scheduling", IEEE Transactions on Computers 1987).
 constexpr double kShareAtOnce = 1.0 / 4;
+/// The same where indirect light is looked for before a picture: in the first blocks almost every
+/// pixel makes ambient values, in the last ones almost none does.
+constexpr double kPrepassShareAtOnce = 1.0 / 32;
 
 /// Every stride-th of the list, from the first, then from the second, and so on.
 std::deque<PixelRectangle> in_strides(const std::vector<PixelRectangle>& list, std::size_t stride) {
@@ -75,9 +78,10 @@ std::optional<JobBlock> BlockSupply::next() {
 JobBlock BlockSupply::take_block(Job& job) const {
     PixelRectangle block = job.blocks.front();
     job.blocks.pop_front();
-    if (policy_.side == 0) {
+    if (policy_.side == 0 || !job.start.keep) {
         const int alignment = job.start.alignment;
-        double pixels = kShareAtOnce * job.pixels_waiting / std::max(1, policy_.slots);
+        const double share = job.start.keep ? kShareAtOnce : kPrepassShareAtOnce;
+        double pixels = share * job.pixels_waiting / std::max(1, policy_.slots);
         if (job.seconds_done > 0)
             pixels = std::max(pixels, kLeastSeconds * job.pixels_timed / job.seconds_done);
         while (static_cast<double>(block.pixels()) > 1.5 * pixels &&

@@ -17,9 +17,12 @@ namespace {
 
 /// The program of rank 0.
 std::vector<Drawn> lead(RankLink& link, const std::vector<Step>& steps,
-                        const CloudOptions& options) {
+                        const CloudOptions& options, bool apart) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
-    const auto finished = [&](FrameOrder order) { return finished_frame(link, std::move(order)); };
+    const auto finished = [&](FrameOrder order) {
+        order.apart = apart;
+        return finished_frame(link, std::move(order));
+    };
     std::vector<Drawn> result;
     FrameLead walk(kWidth, kHeight, options, 0);
     CloudFrame last;
@@ -54,7 +57,7 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<Step>& steps,
         std::thread program;
         if (link.leads()) {
             program = std::thread([&] {
-                result = lead(link, steps, options);
+                result = lead(link, steps, options, company.apart);
                 link.dismiss();
             });
         }
@@ -114,6 +117,19 @@ TEST_CASE("a walk is the same where only some ranks keep points, and where most 
     check_same(alone,
                draw_together(room, steps, options, {Variant::hybrid, 5, 1, /*projectors=*/2}, 3));
     check_same(alone, draw_together(room, steps, options, {Variant::ranks, 4, 1, 1}, 4));
+}
+
+TEST_CASE("a walk is the same where each owner traces its own uncached pixels") {
+    Room room;
+    std::vector<Step> steps = walk(5);
+    steps.insert(steps.end(), 4, steps.back());  // at rest
+    CloudOptions options;
+    options.audit = 0.2;
+    options.audit_limit = 0.001;
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
+    check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 3, 2, 32, true}, 3));
+    check_same(alone, draw_together(room, steps, options, {Variant::ranks, 4, 1, 32, true}, 4));
+    check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 5, 1, 2, true}, 5));
 }
 
 TEST_CASE("a walk by ranks is the same in every mode") {

@@ -172,6 +172,7 @@ inline std::vector<Drawn> draw_alone(Room& room, const std::vector<Step>& steps,
 struct Company {
     Variant variant = Variant::hybrid;
     int ranks = 3, threads = 1, projectors = 32;
+    bool apart = false;  ///< see FrameOrder
 };
 
 inline Wires delaying_wires(const Company& company, std::uint64_t seed) {

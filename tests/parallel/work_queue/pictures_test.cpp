@@ -277,6 +277,21 @@ TEST_CASE("blocks whose size is left to the queue get smaller towards the end, a
     CHECK(sizes.size() < 1000);
 }
 
+TEST_CASE(
+    "where indirect light is looked for before a picture blocks are small, whatever --block says") {
+    for (const int side : {0, 64}) {
+        CAPTURE(side);
+        WorkQueue queue({{1}, 1, {}, {side, 1, 6}, 1});
+        Outbox out;
+        queue.start(PictureJob{0, {0, 0, 27, 20}, 1, false, "", {}, false}, out);
+        out = {};
+        queue.handle(1, WorkRequest{12, {}}, out);
+        const std::vector<JobBlock> given = blocks_of(out);
+        REQUIRE(given.size() == 12);
+        for (const JobBlock& one : given) CHECK(one.block.pixels() <= 8);
+    }
+}
+
 TEST_CASE("sub-queues spare rank 0 messages") {
     NetworkOptions options;
     options.ranks = 40;
