@@ -16,7 +16,11 @@ namespace {
 
 constexpr double kReflectance = kAssumedReflectance;
 constexpr int kFewestDivisions = 7;  ///< for gradients
-constexpr double kAligned = 0.9999;  ///< cosine of normals that count as one
+/// Of the samples that Radiance gives a value, by level: a value of a deeper level is one of the
+/// hundreds of terms of the mean that a hemisphere takes, in which their errors cancel.
+constexpr double kDeeperShare = 0.25;
+constexpr double kFewestDeeper = 100;  ///< samples to which they are reduced: fewer spoil gradients
+constexpr double kAligned = 0.9999;    ///< cosine of normals that count as one
 constexpr double kLeastFactor =
     0.05;  ///< a correction for a tilted normal that is smaller is left out
 
@@ -400,17 +404,24 @@ void AmbientCalculation::store(const Request& request, const NewValue& made) con
         cache_->insert_with_groups(record, made.groups);
 }
 
-/// What an evaluation weighs: it decides on the number of samples.
+/// What an evaluation weighs: it decides how far its value reaches, and for whom it is good enough.
 double AmbientCalculation::evaluation_weight(const AmbientQuery& query) {
     const double weight = std::pow(kReflectance, query.level);
     return query.weight < 0.1 * weight ? 1.25 * query.weight : weight;
+}
+
+/// It decides on the number of samples.
+double AmbientCalculation::sampling_weight(const AmbientQuery& query) const {
+    const double weight = evaluation_weight(query),
+                 fewest = kFewestDeeper / (weight * tracer_.options().ambient_divisions);
+    return weight * std::clamp(fewest, std::pow(kDeeperShare, query.level), 1.0);
 }
 
 std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     const Request& request) const {
     const AmbientQuery& query = request.query;
     const double weight = evaluation_weight(query);
-    const Hemisphere h = sample(request, Rgb::grey(kReflectance), weight, true);
+    const Hemisphere h = sample(request, Rgb::grey(kReflectance), sampling_weight(query), true);
     if (h.succeeded == 0) return std::nullopt;
     NewValue made{h.sum * static_cast<float>(1 / kReflectance), std::nullopt, h.groups};
     for (Rgb& value : made.groups) value *= static_cast<float>(1 / kReflectance);
@@ -455,7 +466,7 @@ void AmbientCalculation::prefetch(const AmbientPoint& point, TraceContext& conte
     Ray ray = ray_to(point);
     const AtLevel at_level(context, point.query.level);
     (void)sample({ray, Rgb::grey(kReflectance), point.query, point.far_side, context},
-                 Rgb::grey(kReflectance), evaluation_weight(point.query), true);
+                 Rgb::grey(kReflectance), sampling_weight(point.query), true);
 }
 
 /// Whether an opaque surface stands between the hit and `target`.

@@ -77,6 +77,7 @@ class AmbientCalculation {
     [[nodiscard]] std::optional<NewValue> make_value(const Request& request) const;
     void store(const Request& request, const NewValue& made) const;
     [[nodiscard]] static double evaluation_weight(const AmbientQuery& query);
+    [[nodiscard]] double sampling_weight(const AmbientQuery& query) const;
     [[nodiscard]] Hemisphere sample(const Request& request, const Rgb& coef, double weight,
                                     bool cached) const;
     [[nodiscard]] bool is_blocked(const Ray& ray, const Vec3& target) const;
