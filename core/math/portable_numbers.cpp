@@ -9,9 +9,9 @@ void append_integer(std::string& out, std::uint64_t value, int size) {
     for (int k = size - 1; k >= 0; --k) out.push_back(static_cast<char>(value >> (8 * k) & 0xff));
 }
 
-void append_real(std::string& out, float value) {
+void append_real(std::string& out, double value) {
     int exponent = 0;
-    const double fraction = std::frexp(static_cast<double>(value), &exponent);
+    const double fraction = std::frexp(value, &exponent);
     auto mantissa = static_cast<std::int64_t>(fraction * 0x7fffffff);
     if (exponent > 127) {
         exponent = 127;

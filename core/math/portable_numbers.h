@@ -14,7 +14,10 @@ inline constexpr std::size_t kPortableRealSize = 5;  ///< bytes
 void append_integer(std::string& out, std::uint64_t value, int size);
 /// Append a real of 5 bytes; its mantissa is truncated to 31 bits. Values beyond 2^127 become the
 /// largest real, values below 2^-128 zero.
-void append_real(std::string& out, float value);
+void append_real(std::string& out, double value);
+inline void append_real(std::string& out, float value) {
+    append_real(out, static_cast<double>(value));
+}
 
 /// Read an integer from the first `size` bytes and remove them from `bytes`, which must hold as
 /// many.
