@@ -97,16 +97,20 @@ std::vector<OptionRow> record_rows(ContribCommand& c, const LibraryPath& library
         c.formats = named.value_or(c.formats);
         return named.has_value();
     };
-    const auto keeps = [&c](ExistingOutputs existing) {
-        return Action{[&c, existing] { c.existing = existing; }};
+    const auto keeps = [&c](const char* name, ExistingOutputs existing) {
+        return AttachedOption{name, [&c, name, existing](OptionWords& words) {
+                                  const auto on = words.toggle(name, c.existing == existing);
+                                  if (on) c.existing = *on ? existing : ExistingOutputs::refuse;
+                                  return on.has_value();
+                              }};
     };
     return {
         {"Records", SectionTitle{}},
         {"-o FILE", next_option(c, c.next.output),
          "where records go; in the name %s stands for the modifier, %d or %04d for the bin: a "
          "file each. Without: standard output"},
-        {"-fo", keeps(ExistingOutputs::replace), "replace files that exist"},
-        {"-r", keeps(ExistingOutputs::continue_),
+        {"-fo[+-]", keeps("-fo", ExistingOutputs::replace), "replace files that exist"},
+        {"-r[+-]", keeps("-r", ExistingOutputs::continue_),
          "go on behind the records that files, or those of an interrupted run (.part), hold; with "
          "-c 0 add to these"},
         {"-h[+-]", &c.header, "output header | write a header before the records"},

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -28,6 +29,13 @@ struct GeneratorContext {
     std::function<std::optional<std::string>(const std::string& path)> model_scene = {};
     /// Receives the output of a generator that writes much, in parts; null: all is returned.
     TextSink* output = nullptr;
+    /// Reads standard input once a generator asks for it; null: `input` holds it.
+    std::function<std::string()> read_input = {};
+
+    [[nodiscard]] const std::string& standard_input() {
+        if (read_input) input = std::exchange(read_input, nullptr)();
+        return input;
+    }
 };
 
 /// A generator. It returns its output, without the beginning that it has passed to context.output.

@@ -70,7 +70,7 @@ std::vector<Vec2> read_base(GeneratorWords& words, GeneratorContext& context) {
     if (!standard && !context.library.files().readable(path))
         words.fail("cannot open vertex file \"" + path + "\"");
     const std::string text =
-        standard ? context.input : context.library.files().read(path, kMaxFileBytes);
+        standard ? context.standard_input() : context.library.files().read(path, kMaxFileBytes);
     const std::string where = standard ? "standard input" : source;
     std::vector<Vec2> base = pairs(parse_numbers(text, where, 2 * kMaxVertices), where);
     if (base.size() < 3) throw InputError({where, 0}, "expected at least 3 vertices");

@@ -40,7 +40,7 @@ class Surface {
         if (table_begin_ < 3) {
             const std::string& file = options.coordinate[2];
             const std::string text = file == "-"
-                                         ? context.input
+                                         ? context.standard_input()
                                          : context.library.files().read(
                                                path_from(context.directory, file), kMaxTableBytes);
             table_.emplace(text, file == "-" ? "standard input" : file, options.m, options.n,

@@ -118,7 +118,7 @@ class Ies2rad {
         find_default_lamp();
         std::string output;
         if (options_.files.empty())
-            output = convert(context_.input, "standard input", options_.name, "");
+            output = convert(context_.standard_input(), "standard input", options_.name, "");
         for (const std::string& file : options_.files) {
             const std::string path = path_from(context_.directory, file);
             const std::string text = context_.library.files().read(path, kMostLuminaireBytes);

@@ -36,7 +36,7 @@ class Obj2rad {
                 words_.unknown_option();
         }
         if (words_.at_end()) {
-            file_ = decode_obj(context.input, "standard input");
+            file_ = decode_obj(context.standard_input(), "standard input");
             return;
         }
         input_ = words_.text("input");

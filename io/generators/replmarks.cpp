@@ -190,10 +190,10 @@ class Replmarks {
     }
 
     std::string run() {
-        if (options_.files.empty()) copy(context_.input, "standard input", 0);
+        if (options_.files.empty()) copy(context_.standard_input(), "standard input", 0);
         for (const std::string& file : options_.files) {
             const std::string path = path_from(context_.directory, file);
-            copy(file == "-" ? context_.input
+            copy(file == "-" ? context_.standard_input()
                              : context_.library.files().read(path, kMaxGeneratedBytes),
                  file == "-" ? "standard input" : path, 0);
         }

@@ -33,7 +33,7 @@ class Xform {
         for (const std::string& word : line_.options) out_ += " " + quoted_for_shell(word);
         out_ += "\n";
         const auto read = [this](const std::string& file) {
-            if (file == "-") return context_.input;
+            if (file == "-") return context_.standard_input();
             const std::string path = path_from(context_.directory, file);
             FileSource& files = context_.library.files();
             if (!files.readable(path)) throw InputError("xform: cannot open " + path);
@@ -45,7 +45,8 @@ class Xform {
 
   private:
     void read_input() {
-        if (line_.files.empty()) read_text(context_.input, "standard input", context_.directory, 0);
+        if (line_.files.empty())
+            read_text(context_.standard_input(), "standard input", context_.directory, 0);
         for (const std::string& file : line_.files) {
             const std::string path = context_.library.locate(file, "scene file");
             std::optional<std::string> model;
