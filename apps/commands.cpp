@@ -111,6 +111,16 @@ instances, memory, and what Lightwalk does not support, with the first place of 
 cannot be rendered; what could be found out is printed all the same.
 )",
      "", false},
+    {"install-names", "FOLDER      the program by the names of Radiance's", run_install_names,
+     install_names_option_table,
+     R"(Make a folder of links to this program: oconv, rtrace, rpict, rcontrib, gensky, gendaylit, genbox, xform, getinfo,
+vwrays, replmarks, pfilt, pvalue, evalglare, falsecolor, gensurf, genrev, genworm, genprism, genblinds. Called by such a
+name it takes the words of Radiance's program, and writes what that writes; what it does not cover it refuses.
+
+  lightwalk install-names ~/names
+  export PATH=~/names:$PATH
+)",
+     "", false},
 };
 
 std::string options_document() {

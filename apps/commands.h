@@ -25,15 +25,22 @@ int run_contrib(const std::vector<std::string>& words, Communicator* ranks);
 int run_relight(const std::vector<std::string>& words, Communicator* ranks);
 int run_freeze(const std::vector<std::string>& words, Communicator* ranks);
 int run_info(const std::vector<std::string>& words, Communicator* ranks);
+int run_install_names(const std::vector<std::string>& words, Communicator* ranks);
+// The same by the names of Radiance's programs, which messages and headers have: as many threads as
+// these have processes, and commands in scene files are run.
+int run_rpict(const std::vector<std::string>& words, Communicator* ranks);
+int run_rtrace(const std::vector<std::string>& words, Communicator* ranks);
+int run_rcontrib(const std::vector<std::string>& words, Communicator* ranks);
 
 /// The commands in With::commands.
 inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFreeze = 16,
-                          kInfo = 32, kContrib = 64, kRelight = 128;
+                          kInfo = 32, kContrib = 64, kRelight = 128, kInstallNames = 256;
 
 /// The options of each, with their defaults.
 [[nodiscard]] OptionTable freeze_option_table();
 [[nodiscard]] OptionTable info_option_table();
 [[nodiscard]] OptionTable relight_option_table();
+[[nodiscard]] OptionTable install_names_option_table();
 
 struct Command {
     const char* name;

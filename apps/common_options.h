@@ -16,6 +16,7 @@ struct CommonOptions {
     explicit CommonOptions(std::string command, OptionDefaults program = OptionDefaults::rpict);
 
     std::string command;                       ///< name of the command
+    std::string called;                        ///< by another name than "lightwalk COMMAND"; ""
     RendererRequest request;                   ///< the scene's files, -n --executor ...
     RenderSettings settings;                   ///< how light is followed
     RankCommand ranks;                         ///< --variant --block ...
@@ -28,7 +29,9 @@ struct CommonOptions {
     std::vector<std::string> words;            ///< the command line, to be read again
 
     /// How messages name the program.
-    [[nodiscard]] std::string program() const { return "lightwalk " + command; }
+    [[nodiscard]] std::string program() const {
+        return called.empty() ? "lightwalk " + command : called;
+    }
     [[nodiscard]] const std::vector<std::string>& scene_files() const {
         return request.source.files;
     }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "apps/command_run.h"
 #include "apps/contrib_command.h"
@@ -148,6 +149,14 @@ class ContribRun final : CommandRun {
 
 int run_contrib(const std::vector<std::string>& words, Communicator* ranks) {
     return run_command<ContribRun>(ContribCommand{}, words, ranks);
+}
+
+int run_rcontrib(const std::vector<std::string>& words, Communicator* ranks) {
+    ContribCommand command;
+    command.common.called = "rcontrib";
+    command.common.request.source.allow_commands = true;
+    command.common.set_threads(1);
+    return run_command<ContribRun>(std::move(command), words, ranks);
 }
 
 }  // namespace lightwalk

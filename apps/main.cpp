@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/names/named_program.h"
 #include "apps/session/heap.h"
 #include "apps/session/lightwalk/ranks.h"
 #include "core/error.h"
@@ -58,6 +59,20 @@ int dispatch(const std::vector<std::string>& words, Communicator* ranks) {
     throw UsageError("unknown command " + name + (meant ? ", did you mean " + *meant + "?" : ""));
 }
 
+/// Runs what the process is called by: a program of Radiance's. Sets `ranks` where there are
+/// several.
+int run_by_name(const NamedProgram& program, const std::vector<std::string>& words,
+                std::unique_ptr<Communicator>& ranks) {
+    try {
+        if (started_by_mpi()) ranks = open_mpi();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s: fatal - %s\n", program.name, error.what());
+        return kFailureStatus;
+    }
+    if (ranks && ranks->rank() != 0 && !program.shared) return kSuccessStatus;
+    return run_named_program(program, words, ranks.get());
+}
+
 /// Runs the command; what is wrong is said on standard error, by rank 0 alone where all ranks see
 /// it. Sets `ranks` where there are several.
 int run(const std::vector<std::string>& words, std::unique_ptr<Communicator>& ranks) {
@@ -90,9 +105,11 @@ int run(const std::vector<std::string>& words, std::unique_ptr<Communicator>& ra
 int main(int argc, char** argv) {
     lightwalk::prepare_heap();
     std::unique_ptr<lightwalk::Communicator> ranks;
-    const int status = lightwalk::run(
-        argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>(),
-        ranks);
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    const lightwalk::NamedProgram* const named =
+        argc > 0 ? lightwalk::find_named_program(argv[0]) : nullptr;
+    const int status = named != nullptr ? lightwalk::run_by_name(*named, words, ranks)
+                                        : lightwalk::run(words, ranks);
     if (!ranks || status == lightwalk::kSuccessStatus) return status;
     // Of a process that ends by itself with another status mpirun tells a dozen lines: rank 0 ends
     // all. The others wait for that outside of MPI: mpirun may hang or crash where processes are

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "apps/command_run.h"
 #include "apps/interrupt.h"
@@ -245,6 +246,13 @@ int run_render(const std::vector<std::string>& words, Communicator* ranks) {
 
 int run_animate(const std::vector<std::string>& words, Communicator* ranks) {
     return run_command<RenderRun>(RenderCommand("animate"), words, ranks);
+}
+
+int run_rpict(const std::vector<std::string>& words, Communicator* ranks) {
+    RenderCommand command("render");
+    command.common.called = "rpict";
+    command.common.request.source.allow_commands = true;
+    return run_command<RenderRun>(std::move(command), words, ranks);
 }
 
 }  // namespace lightwalk

@@ -1,6 +1,7 @@
 // lightwalk trace: single rays, as rtrace answers them.
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "apps/command_run.h"
 #include "apps/ray_stream.h"
@@ -171,6 +172,14 @@ class TraceRun final : CommandRun {
 
 int run_trace(const std::vector<std::string>& words, Communicator* ranks) {
     return run_command<TraceRun>(TraceCommand{}, words, ranks);
+}
+
+int run_rtrace(const std::vector<std::string>& words, Communicator* ranks) {
+    TraceCommand command;
+    command.common.called = "rtrace";
+    command.common.request.source.allow_commands = true;
+    command.common.set_threads(1);
+    return run_command<TraceRun>(std::move(command), words, ranks);
 }
 
 }  // namespace lightwalk
