@@ -23,8 +23,8 @@ void* load_from_module(const char* file, const char* symbol, std::string& error)
     const std::filesystem::path here =
         std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
     const std::filesystem::path own = own_folder();
-    // Beside the program, as built or in a wheel; installed; beside a library or a Python module; beside the
-    // program of which this is a test.
+    // Beside the program, as built or in a wheel; installed; beside a library or a Python module;
+    // beside the program of which this is a test.
     for (const std::filesystem::path& folder :
          {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk", own / "lightwalk",
           own.is_absolute() ? own : here, here / ".."}) {
