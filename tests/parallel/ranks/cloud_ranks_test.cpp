@@ -16,8 +16,8 @@ using namespace lightwalk::test::rank_walks;
 namespace {
 
 /// The program of rank 0.
-std::vector<Drawn> lead(RankLink& link, const std::vector<Step>& steps,
-                        const CloudOptions& options, bool apart) {
+std::vector<Drawn> lead(RankLink& link, const std::vector<Step>& steps, const CloudOptions& options,
+                        bool apart) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
     const auto finished = [&](FrameOrder order) {
         order.apart = apart;
