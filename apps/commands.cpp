@@ -148,7 +148,7 @@ std::pair<std::string, std::string> operands_and_purpose(const Command& command)
     const std::size_t gap = summary.find("  ");
     std::string purpose = summary.substr(summary.find_first_not_of(' ', gap));
     const auto twice = [](char a, char b) { return a == ' ' && b == ' '; };
-    purpose.erase(std::ranges::unique(purpose, twice).begin(), purpose.end());
+    purpose.erase(std::unique(purpose.begin(), purpose.end(), twice), purpose.end());
     return {summary.substr(0, gap), purpose};
 }
 

@@ -33,6 +33,7 @@ constexpr NamedProgram kPrograms[] = {
     {"pfilt", run_pfilt},
     {"pvalue", run_pvalue},
     {"evalglare", run_evalglare},
+    {"falsecolor", run_falsecolor},
     {"gensurf", run_generator},
     {"genrev", run_generator},
     {"genworm", run_generator},

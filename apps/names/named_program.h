@@ -37,6 +37,8 @@ int run_getinfo(const std::string& name, const std::vector<std::string>& words,
 int run_vwrays(const std::string& name, const std::vector<std::string>& words, Communicator* ranks);
 int run_pvalue(const std::string& name, const std::vector<std::string>& words, Communicator* ranks);
 int run_pfilt(const std::string& name, const std::vector<std::string>& words, Communicator* ranks);
+int run_falsecolor(const std::string& name, const std::vector<std::string>& words,
+                   Communicator* ranks);
 int run_evalglare(const std::string& name, const std::vector<std::string>& words,
                   Communicator* ranks);
 

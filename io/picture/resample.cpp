@@ -30,11 +30,12 @@ Taps gaussian_taps(int place, int size, int new_size, double radius) {
     // Where new pixels are smaller than the old ones the filter does not become narrower.
     const double ratio = std::max(1.0, static_cast<double>(size) / new_size);
     const double middle = (place + .5) * size / new_size;
-    const int reach = std::max(1, static_cast<int>(kReach * radius * ratio + .5));
+    const int reach = std::max(1, static_cast<int>(std::lround(kReach * radius * ratio)));
     const int centre = static_cast<int>(middle);
     Taps taps;
     taps.first = std::max(0, centre - reach);
     const int last = std::min(size - 1, centre + reach);
+    taps.weights.reserve(static_cast<std::size_t>(std::max(0, last - taps.first + 1)));
     double sum = 0;
     for (int i = taps.first; i <= last; ++i) {
         const double distance = (i + .5 - middle) / (ratio * radius);
@@ -47,6 +48,7 @@ Taps gaussian_taps(int place, int size, int new_size, double radius) {
 
 std::vector<Taps> taps_along(int size, int new_size, double radius) {
     std::vector<Taps> all;
+    all.reserve(static_cast<std::size_t>(new_size));
     for (int i = 0; i < new_size; ++i)
         all.push_back(radius > 0 ? gaussian_taps(i, size, new_size, radius)
                                  : box_taps(i, size, new_size));

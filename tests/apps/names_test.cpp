@@ -295,6 +295,57 @@ TEST_CASE("names: pfilt's box and Gaussian have Radiance's weights, its exposure
     CHECK(names.run("pfilt -m .1 a.hdr").status == 1);
 }
 
+TEST_CASE("names: falsecolor shows values as colours, lines and a legend") {
+    const NamedFolder names;
+    // Luminances of 0 to 1000 cd/m2, from the left to the right.
+    std::string text;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const std::string value = std::to_string((x + .5) / 64 * 1000 / 179);
+            text += value + ' ' + value + ' ' + value + '\n';
+        }
+    names.folder.write("v.txt", text);
+    names.out("pvalue -r -h -H -d -y 16 +x 64 v.txt > a.hdr");
+    const auto row = [&](const std::string& options) {
+        return numbers(
+            names.out("falsecolor -i a.hdr " + options + " | pvalue -h -H -d | head -64"));
+    };
+    // The mapping that falsecolor(1) has for -spec: blue, green, red.
+    const std::vector<double> spectrum = row("-lh 0 -pal spec");
+    CHECK(spectrum[2] > .9);
+    CHECK(spectrum[3 * 24 + 1] == doctest::Approx(1 - 1.6 * (24.5 / 64 - .375)).epsilon(.02));
+    CHECK(spectrum[3 * 63] > .95);
+    CHECK(spectrum[3 * 63 + 2] == 0);
+    // Half of the range, of ten decades: three tenths of the scale to its end.
+    const std::vector<double> decades = row("-lh 0 -pal hot -log 1");
+    CHECK(decades[3 * 31] == 1);  // red is full at a third
+    CHECK(decades[3 * 31 + 1] == doctest::Approx(1).epsilon(.01));
+    CHECK(decades[3 * 31 + 2] == doctest::Approx(3 * (1 + std::log10(31.5 / 64)) - 2).epsilon(.03));
+    // Four steps have three lines between them, on the picture itself.
+    const std::vector<double> lines = row("-lh 0 -cl -n 4 -pal spec");
+    int drawn = 0;
+    for (std::size_t x = 0; x < 64; ++x) drawn += lines[3 * x] != lines[3 * x + 1] ? 1 : 0;
+    CHECK(drawn == 3);
+    CHECK(row("-lh 0 -s auto") != row("-lh 0"));
+    // The legend is to the left, the label its first line.
+    CHECK(names.out("falsecolor -i a.hdr | getinfo -d") == "-Y       16 +X      164\n");
+    const std::vector<double> legend = row("-l I -lw 64");
+    CHECK(legend[3 * 2] == 1);  // a serif
+    CHECK(legend[3 * 10] == 0);
+    CHECK(names.out("falsecolor -e -lw 0 < a.hdr | pvalue -h -H -d -b") !=
+          names.out("falsecolor -lw 0 < a.hdr | pvalue -h -H -d -b"));
+    CHECK(names.out("falsecolor -i a.hdr -lw 0 | getinfo | grep falsecolor") ==
+          "falsecolor -i a.hdr -lw 0\n");
+    for (const std::string wrong : {"-i none.hdr", "-s 0 -i a.hdr", "-r v -i a.hdr", "a.hdr",
+                                    "-n 0 -i a.hdr", "-i v.txt", "-lw 9999999 -i a.hdr"}) {
+        CAPTURE(wrong);
+        const ProgramResult refused = names.run("falsecolor " + wrong);
+        CHECK(refused.status == 1);
+        CHECK(refused.out.empty());
+        CHECK(refused.err.find("falsecolor: fatal - ") == 0);
+    }
+}
+
 TEST_CASE("names: evalglare finds Radiance's glare in a fisheye of three discs") {
     // Luminances of 179, 10740 and 17900 cd/m2: discs at 51.6 and 28.7 degrees.
     const NamedFolder names;
