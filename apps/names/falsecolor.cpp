@@ -195,7 +195,9 @@ void draw_extrema(const FalsecolorCommand& c, const std::vector<double>& values,
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     for (const auto place : {least, most}) {
         const auto at = static_cast<int>(place - values.begin());
-        const std::string text = shown(*place, c.digits);
+        std::array<char, 32> number{};
+        std::snprintf(number.data(), number.size(), "%.4g", *place);
+        const std::string text = number.data();
         const int wide = kLetterWidth * static_cast<int>(text.size());
         const int x = std::min(at % picture.width, std::max(0, picture.width - wide));
         const int y = std::min(at / picture.width, std::max(0, picture.height - kLetterHeight));

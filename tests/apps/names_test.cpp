@@ -308,17 +308,17 @@ TEST_CASE("names: falsecolor shows values as colours, lines and a legend") {
     names.out("pvalue -r -h -H -d -y 16 +x 64 v.txt > a.hdr");
     const auto row = [&](const std::string& options) {
         return numbers(
-            names.out("falsecolor -i a.hdr " + options + " | pvalue -h -H -d | head -64"));
+            names.out("falsecolor -i a.hdr " + options + " | pvalue -h -H -d | sed -n 1,64p"));
     };
     // The mapping that falsecolor(1) has for -spec: blue, green, red.
     const std::vector<double> spectrum = row("-lh 0 -pal spec");
     CHECK(spectrum[2] > .9);
     CHECK(spectrum[3 * 24 + 1] == doctest::Approx(1 - 1.6 * (24.5 / 64 - .375)).epsilon(.02));
     CHECK(spectrum[3 * 63] > .95);
-    CHECK(spectrum[3 * 63 + 2] == 0);
+    CHECK(spectrum[3 * 63 + 2] < .004);
     // Half of the range, of ten decades: three tenths of the scale to its end.
     const std::vector<double> decades = row("-lh 0 -pal hot -log 1");
-    CHECK(decades[3 * 31] == 1);  // red is full at a third
+    CHECK(decades[3 * 31] == doctest::Approx(1).epsilon(.01));  // red is full at a third
     CHECK(decades[3 * 31 + 1] == doctest::Approx(1).epsilon(.01));
     CHECK(decades[3 * 31 + 2] == doctest::Approx(3 * (1 + std::log10(31.5 / 64)) - 2).epsilon(.03));
     // Four steps have three lines between them, on the picture itself.
@@ -330,8 +330,8 @@ TEST_CASE("names: falsecolor shows values as colours, lines and a legend") {
     // The legend is to the left, the label its first line.
     CHECK(names.out("falsecolor -i a.hdr | getinfo -d") == "-Y       16 +X      164\n");
     const std::vector<double> legend = row("-l I -lw 64");
-    CHECK(legend[3 * 2] == 1);  // a serif
-    CHECK(legend[3 * 10] == 0);
+    CHECK(legend[3 * 2] > .99);  // a serif
+    CHECK(legend[3 * 10] < .004);
     CHECK(names.out("falsecolor -e -lw 0 < a.hdr | pvalue -h -H -d -b") !=
           names.out("falsecolor -lw 0 < a.hdr | pvalue -h -H -d -b"));
     CHECK(names.out("falsecolor -i a.hdr -lw 0 | getinfo | grep falsecolor") ==

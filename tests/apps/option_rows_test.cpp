@@ -194,19 +194,22 @@ TEST_CASE("options: apps/OPTIONS.md is what `lightwalk help options` prints") {
 }
 
 TEST_CASE("manual pages: each command has one, with each option that it takes") {
+    const auto escaped = [](std::string name) {
+        for (std::size_t at = 0; (at = name.find('-', at)) != std::string::npos; at += 2)
+            name.insert(at, 1, '\\');
+        return name;
+    };
     const std::string program = manual_text("");
     for (const Command& command : commands()) {
         CAPTURE(command.name);
-        CHECK(program.find(std::string("lightwalk\\-") + command.name + "(1): ") !=
+        CHECK(program.find(escaped(std::string("lightwalk-") + command.name + "(1): ")) !=
               std::string::npos);
         const std::string page = manual_text(command.name);
         const OptionTable table = command.options();
         for (const OptionRow& row : table.rows()) {
             if (!row.offered()) continue;
             CAPTURE(row.words);
-            std::string name = row.words.substr(0, row.words.find(' '));
-            for (std::size_t at = 0; (at = name.find('-', at)) != std::string::npos; at += 2)
-                name.insert(at, 1, '\\');
+            const std::string name = escaped(row.words.substr(0, row.words.find(' ')));
             CHECK(page.find(".TP\n\\fB" + name + "\\fR") != std::string::npos);
         }
     }
