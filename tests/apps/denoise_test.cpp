@@ -60,7 +60,7 @@ TEST_CASE("render: --denoise tells the error before and after it, where half of 
     const TemporaryFolder folder;
     const std::string scene = folder.write("wall.rad", kWall);
     const ProgramResult made =
-        run_program(words_for({"--error", ".2", "--denoise", "-o", folder.path("a.png")}, scene),
+        run_program(words_for({"--error", ".4", "--denoise", "-o", folder.path("a.png")}, scene),
                     "", kWithLibrary);
     CHECK(made.status == 0);
     double noisy = 0, clean = 0;
@@ -73,7 +73,7 @@ TEST_CASE("render: --denoise tells the error before and after it, where half of 
     CHECK(clean < .7 * noisy);  // the mean of a thousand pixels; of what stays as it is: 1.4
     CHECK(
         run_program(
-            words_for({"--error", ".2", "--denoise", "--quiet", "-o", folder.path("a.png")}, scene),
+            words_for({"--error", ".4", "--denoise", "--quiet", "-o", folder.path("a.png")}, scene),
             "", kWithLibrary)
             .err.empty());
 }
