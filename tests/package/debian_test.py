@@ -26,8 +26,8 @@ def run(*words, **more):
 
 
 def main(cpack, build):
-    if not shutil.which("dpkg-deb") or not shutil.which("dpkg-shlibdeps"):
-        print("skipped: dpkg-dev is not installed")
+    if not all(map(shutil.which, ("dpkg-deb", "dpkg-shlibdeps", "file"))):
+        print("skipped: dpkg-dev or file is not installed")
         return SKIPPED
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
