@@ -191,7 +191,7 @@ std::string shown(double value, int digits) {
 }
 
 /// The numbers of the darkest and the brightest pixel, beside these.
-void draw_extrema(const FalsecolorCommand& c, const std::vector<double>& values, Picture& picture) {
+void draw_extrema(const std::vector<double>& values, Picture& picture) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     for (const auto place : {least, most}) {
         const auto at = static_cast<int>(place - values.begin());
@@ -265,7 +265,7 @@ int run_falsecolor(const std::string& name, const std::vector<std::string>& word
     if (c.automatic) c.scale = std::max(*std::max_element(values.begin(), values.end()), 1e-30);
     for (const double value : values) places.push_back(place_of(c, value));
     draw_values(c, places, picture);
-    if (c.extrema) draw_extrema(c, values, picture);
+    if (c.extrema) draw_extrema(values, picture);
     if (c.width > 0 && c.height > 0) picture = beside(make_legend(c, picture.height), picture);
     header.lines.push_back(name + (words.empty() ? "" : ' ' + history_line(words)));
     header.xyz = false;
