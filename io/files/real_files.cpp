@@ -21,8 +21,8 @@ namespace lightwalk {
 namespace {
 
 std::optional<std::string> environment(const std::string& name) {
-    const char* const value =
-        std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe): nothing calls setenv
+    const char* const value = std::getenv(
+        name.c_str());  // NOLINT(concurrency-mt-unsafe): setenv is called before there are threads
     return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 

@@ -34,9 +34,23 @@ void check(int code, const char* what) {
     throw std::runtime_error(std::string("message passing: ") + what + ": " + text.data());
 }
 
+/// Open MPI sends short messages over TCP at once. Longer ones wait until the receiver has asked
+/// for them, which takes a round trip: between hosts that are far from each other more than all
+/// else in a walk's frame. By default 64 kB are short, which a frame's parts are not. What the user
+/// has set stays; other libraries do not know these names.
+void send_frames_at_once() {
+    constexpr const char* kShortBytes = "524288";
+    constexpr int kKeep = 0;
+    for (const char* const name :
+         {"OMPI_MCA_btl_tcp_eager_limit", "OMPI_MCA_btl_tcp_rndv_eager_limit",
+          "OMPI_MCA_btl_tcp_max_send_size"})
+        (void)setenv(name, kShortBytes, kKeep);  // NOLINT(concurrency-mt-unsafe): before any thread
+}
+
 class MpiCommunicator final : public Communicator {
   public:
     MpiCommunicator(int* count, char*** words) {
+        send_frames_at_once();
         int provided = 0;
         check(MPI_Init_thread(count, words, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
         check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN),
