@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Rooms whose windows are BSDF data, beside an installed Radiance and beside the same rooms with panes of glass.
 
-  bsdf_bench.py [--scenes DIR] [--rpict PATH] [--lightwalk PROGRAM] [--runs 3] [--threads 2] [--pick REGEX] [--size 1] [--keep FOLDER]
+  bsdf_bench.py [--scenes DIR] [--rpict PATH] [--lightwalk PROGRAM] [--runs 3] [--threads 2] [--pick REGEX] [--size 1] [--keep FOLDER] [--instructions]
 
 DIR is a folder that holds Radiance's sample models: DIR/cabin and DIR/lib; without it there are no rows of the cabin, without rpict
 no columns of it. Each row is a picture, by direct light or with two bounces: seconds of whole processes (the median of runs that take
 turns), Lightwalk on --threads threads and rpict with an octree that oconv made before, and how many times rpict's time is ours: by the
 clock, and by processor time on as many threads. The rooms' data is made by bsdf_data.py: `blind` is a matrix over Klems' full basis
 (slats that let light down and up), `pane` a tensor tree of rank 4 with a peak straight on, as aBSDF; `proxy` has slats as geometry, and
-the matrix for scattered light. Rooms are the cabin's living room, whose panes get the data, and a room of one window. --keep leaves
+the matrix for scattered light. With --instructions one run each under valgrind's callgrind, ours on one thread, and 10^9 instructions in
+place of seconds, which do not depend on what else the machine does (a small --size: it takes fifty times as long). Rooms are the cabin's living room, whose panes get the data, and a room of one window. --keep leaves
 scenes and pictures there.
 """
 import argparse, os, pathlib, re, resource, shutil, statistics, subprocess, sys, tempfile, time
@@ -89,6 +90,14 @@ def timed(command, folder, environment):
     return time.perf_counter() - start, used() - before
 
 
+def counted(command, folder, environment):
+    """10^9 instructions, twice: they are the same for every clock."""
+    told = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command], cwd=folder, env=environment,
+                          check=True, capture_output=True, text=True).stderr
+    found = int(re.search(r"Collected : (\d+)", told)[1]) / 1e9
+    return found, found
+
+
 def make_octree(arguments, folder, environment, scene, path):
     with open(path, "wb") as out:
         done = subprocess.run([os.path.join(os.path.dirname(arguments.rpict), "oconv"), "-w", *scene], cwd=folder, env=environment,
@@ -103,6 +112,12 @@ def measure(arguments, folder, environment, options, scene, scratch, name):
     if arguments.rpict:
         make_octree(arguments, folder, environment, scene, octree)
     ours, theirs = [], []
+    if arguments.instructions:
+        picture = scratch / f"{name}.rpict.hdr"
+        picture.unlink(missing_ok=True)
+        count = lambda command: counted(command, folder, environment)
+        return ([count([arguments.lightwalk, "render", *options, "-n", "1", "--quiet", "-o", str(scratch / f"{name}.hdr"), *scene])],
+                [count([arguments.rpict, *options, "-o", str(picture), str(octree)])] if arguments.rpict else [])
     for _ in range(arguments.runs):
         ours.append(timed([arguments.lightwalk, "render", *options, "-n", str(arguments.threads), "--quiet",
                            "-o", str(scratch / f"{name}.hdr"), *scene], folder, environment))
@@ -141,17 +156,21 @@ def main():
     parser.add_argument("--pick", default="", metavar="REGEX", help="of the pictures 'ROOM direct' and 'ROOM bounces'")
     parser.add_argument("--size", type=float, default=1, help="times the pictures' width and height")
     parser.add_argument("--keep", metavar="FOLDER")
+    parser.add_argument("--instructions", action="store_true")
     arguments = parser.parse_args()
     if os.sep in arguments.lightwalk:
         arguments.lightwalk = os.path.abspath(arguments.lightwalk)
     arguments.rpict = find_rpict(arguments.rpict)
+    if arguments.instructions:
+        arguments.threads = 1
     environment = dict(os.environ, RAYPATH=f".:{os.environ.get('RAYPATH', '')}")
     if arguments.scenes:
         environment["RAYPATH"] = f".:{os.path.abspath(arguments.scenes)}/lib:{os.environ.get('RAYPATH', '')}"
     if arguments.rpict:
         environment["PATH"] = os.path.dirname(arguments.rpict) + os.pathsep + os.environ.get("PATH", "")
     print(f"{commit()}\t{machine()}\t{arguments.threads} threads")
-    print("picture\tours s\tspread s\trpict s\tspread s\ttimes\tof processors", flush=True)
+    unit = "10^9" if arguments.instructions else "s"
+    print(f"picture\tours {unit}\tspread {unit}\trpict {unit}\tspread {unit}\ttimes\tof processors", flush=True)
     with tempfile.TemporaryDirectory() as made:
         scratch = pathlib.Path(arguments.keep or made).resolve()
         scratch.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,7 @@
 #pragma once
 // Collective operations of processes that compute together.
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -40,6 +42,19 @@ class Group {
         return i % static_cast<std::size_t>(size()) == static_cast<std::size_t>(index());
     }
 };
+
+/// How long it takes at least until all have answered [s]. By all processes of the group.
+[[nodiscard]] inline double shortest_round_trip(Group& group) {
+    using Clock = std::chrono::steady_clock;
+    constexpr int kRounds = 4;
+    auto shortest = Clock::duration::max();
+    for (int i = 0; i < kRounds; ++i) {
+        const Clock::time_point start = Clock::now();
+        (void)group.all_gather({});
+        shortest = std::min(shortest, Clock::now() - start);
+    }
+    return std::chrono::duration<double>(shortest).count();
+}
 
 /// A process by itself.
 class GroupOfOne final : public Group {

@@ -241,7 +241,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
                         *rank_0s);
     }
     agreed_ = timeline_.since(Clock::now());
-    if (lines.empty()) return watch(std::move(hosts));
+    if (lines.empty()) return watch_others(std::move(hosts));
     if (!leads()) throw AgreedProblem("");
     if (problems.size() == 1 && !differ && problems.begin()->second == 0)
         throw AgreedProblem(first.problem);
@@ -251,20 +251,13 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     throw AgreedProblem(text);
 }
 
-void RankLink::watch(std::vector<std::string> hosts) {
+void RankLink::watch_others(std::vector<std::string> hosts) {
     if (communicator_.on_one_machine()) return;
     post(Activity::handle, [this, all = std::move(hosts)](RankRoles&, Outbox&) {
         hosts_ = all;
         pulse_.start(Clock::now());
     });
-    constexpr int kRounds = 4;
-    std::chrono::duration<double> shortest{kHuge};
-    for (int i = 0; i < kRounds; ++i) {
-        const Clock::time_point start = Clock::now();
-        meet();
-        shortest = std::min<std::chrono::duration<double>>(shortest, Clock::now() - start);
-    }
-    round_trip_ = shortest.count();
+    round_trip_ = shortest_round_trip(everyone_);
 }
 
 void RankLink::end_work() {

@@ -202,7 +202,7 @@ class RankLink {
     // The program's threads.
     [[nodiscard]] Collective perform(Collective share);
     void flush_values();
-    void watch(std::vector<std::string> hosts);
+    void watch_others(std::vector<std::string> hosts);
     void meet() { (void)all_gather(Collective::Group::all, {}); }
     [[noreturn]] void fail(const std::string& text);
 
