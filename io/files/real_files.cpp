@@ -21,8 +21,8 @@ namespace lightwalk {
 namespace {
 
 std::optional<std::string> environment(const std::string& name) {
-    const char* const value = std::getenv(
-        name.c_str());  // NOLINT(concurrency-mt-unsafe): setenv is called before there are threads
+    // setenv is called before there are threads. NOLINTNEXTLINE(concurrency-mt-unsafe)
+    const char* const value = std::getenv(name.c_str());
     return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
