@@ -50,6 +50,8 @@ class RenderRun final : CommandRun {
         if (speaks()) check_outputs();
         if (speaks() && command_.output.denoise) (void)Denoiser();  // before anything is drawn
         keep_ambient_values();
+        if (options().deterministic && command_.resume && !command_.checkpoint.empty() && speaks())
+            options().ambient_beginning = Checkpoint::beginning_of(command_.checkpoint);
     }
 
     int run() {
@@ -113,7 +115,10 @@ class RenderRun final : CommandRun {
         std::string header = "SOFTWARE= Lightwalk " LIGHTWALK_VERSION "\n" +
                              option_table(same, real_files()).defaults();
         header += "scene " + session.compiled().files().digest() + '\n';
-        checkpoint_ = std::make_unique<Checkpoint>(command_.checkpoint, header, warnings());
+        checkpoint_ = std::make_unique<Checkpoint>(command_.checkpoint, header, warnings(),
+                                                   options().deterministic && session.ambient_store
+                                                       ? session.ambient_store->beginning()
+                                                       : std::string());
     }
 
     /// With --checkpoint and cached ambient light: the values are kept beside it, as with -af. Not

@@ -13,7 +13,12 @@ namespace {
 constexpr std::chrono::seconds kOften{1};  ///< between two times of writing, which cost a sync
 
 using Head = std::array<std::int32_t, 5>;  ///< frame, x0, y0, x1, y1
-constexpr PixelRectangle kBeginning{-1, 0, 0, 0}, kStep{-1, 1, 0, 0};
+constexpr PixelRectangle kBeginning{-1, 0, 0, 0}, kStep{-1, 1, 0, 0}, kRun{-1, 2, 0, 0};
+
+std::string bytes_of(int frame, const PixelRectangle& block) {
+    const Head head{frame, block.x0, block.y0, block.x1, block.y1};
+    return {reinterpret_cast<const char*>(head.data()), sizeof head};
+}
 
 bool contains(const PixelRectangle& whole, const PixelRectangle& part) {
     return whole.x0 <= part.x0 && whole.y0 <= part.y0 && part.x1 <= whole.x1 && part.y1 <= whole.y1;
@@ -61,10 +66,26 @@ class Checkpoint::Picture final : public CheckpointSink {
     PixelRectangle whole_;
 };
 
-Checkpoint::Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings) {
+Checkpoint::Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings,
+                       const std::string& beginning) {
     log_ = std::make_unique<RecordLog>(
         path, header, [&](std::string_view record) { read(record); }, warnings);
+    if (beginning != known_beginning_) {
+        const std::string record = bytes_of(0, kRun) + beginning;
+        log_->append(record);
+        log_->sync();
+        read(record);
+    }
     writer_ = std::jthread([this](const std::stop_token& ending) { write(ending); });
+}
+
+std::string Checkpoint::beginning_of(const std::string& path) {
+    const std::string head = bytes_of(0, kRun);
+    std::string beginning;
+    RecordLog::look_through(path, [&](std::string_view record) {
+        if (record.starts_with(head)) beginning = record.substr(head.size());
+    });
+    return beginning;
 }
 
 void Checkpoint::read(std::string_view record) {
@@ -73,7 +94,11 @@ void Checkpoint::read(std::string_view record) {
     std::memcpy(head.data(), record.data(), sizeof head);
     const PixelRectangle block{head[1], head[2], head[3], head[4]};
     std::string rest(record.substr(sizeof head));
-    if (block == kBeginning)
+    if (block == kRun) {
+        known_.clear();
+        known_rounds_.clear();
+        known_beginning_ = std::move(rest);
+    } else if (block == kBeginning)
         known_rounds_[head[0]] = {std::move(rest), {}};
     else if (block == kStep)
         known_rounds_[head[0]].steps.push_back(std::move(rest));
@@ -110,10 +135,9 @@ void Checkpoint::write(const std::stop_token& ending) {
         lock.unlock();
         try {
             for (const Kept& one : kept) {
-                const Head head{one.frame, one.block.x0, one.block.y0, one.block.x1, one.block.y1};
-                std::string record(reinterpret_cast<const char*>(head.data()), sizeof head);
-                log_->append(record + (one.of_rounds.empty() ? encode_piece(one.block, one.values)
-                                                             : one.of_rounds));
+                log_->append(
+                    bytes_of(one.frame, one.block) +
+                    (one.of_rounds.empty() ? encode_piece(one.block, one.values) : one.of_rounds));
             }
             log_->sync();
             lock.lock();

@@ -37,9 +37,10 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
                              bool leads)
     : options_(std::move(options)),
       warnings_(options_.warn),
-      session_(std::make_unique<SceneSession>(
-          std::move(scene), options_.light, leads ? options_.ambient_file : std::string(),
-          use_of_others(options_), options_.keep_coefficients, warnings_)),
+      session_(std::make_unique<SceneSession>(std::move(scene), options_.light,
+                                              leads ? options_.ambient_file : std::string(),
+                                              use_of_others(options_), options_.keep_coefficients,
+                                              warnings_, options_.ambient_beginning)),
       executor_(make_executor(options_.executor.value_or(kDefaultExecutor),
                               options_.threads > 0 ? options_.threads : hardware_threads())),
       contexts_(session_->tracer(), warnings_, executor_->concurrency()) {

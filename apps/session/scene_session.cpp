@@ -22,7 +22,8 @@ bool caches_ambient_values(const RenderOptions& light) {
 
 SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
                            const RenderOptions& light, const std::string& ambient_file,
-                           OthersValues others, bool keeps_coefficients, WarningSink& warnings)
+                           OthersValues others, bool keeps_coefficients, WarningSink& warnings,
+                           const std::string& begun)
     : compiled_(std::move(compiled)), warnings_(warnings), cost_(compiled_->cost()) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor =
@@ -33,7 +34,7 @@ SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
         coefficients = std::make_unique<CoefficientCache>(limits_of(light), kEffort);
         tracer->use_coefficients(coefficients.get());
     } else if (caches_ambient_values(light)) {
-        make_cache(light, ambient_file, others);
+        make_cache(light, ambient_file, others, begun);
         tracer->use_ambient_cache(freezable.get());
     } else if (!ambient_file.empty()) {
         warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
@@ -49,12 +50,12 @@ AmbientLimits SceneSession::limits_of(const RenderOptions& light) const {
 }
 
 void SceneSession::make_cache(const RenderOptions& light, const std::string& ambient_file,
-                              OthersValues others) {
+                              OthersValues others, const std::string& begun) {
     ambient = std::make_unique<ConcurrentCache>(limits_of(light));
     freezable = std::make_unique<PublishedCache>(*ambient);
     if (ambient_file.empty()) return;
     ambient_store =
-        std::make_unique<AmbientStore>(ambient_file, light, *ambient, warnings_, others);
+        std::make_unique<AmbientStore>(ambient_file, light, *ambient, warnings_, others, begun);
     known = ambient_store->take_loaded();
     freezable->add(*ambient_store);
 }

@@ -24,11 +24,12 @@ class SceneSession {
     /// @param compiled      after compile()
     /// @param ambient_file  where indirect values are kept; "": nowhere
     /// @param others        what becomes of values that other processes add to it
+    /// @param begun         of the ambient file, see AmbientStore
     /// @param keeps_coefficients  in place of indirect values
     /// @param warnings      must outlive this
     SceneSession(std::shared_ptr<const CompiledScene> compiled, const RenderOptions& light,
                  const std::string& ambient_file, OthersValues others, bool keeps_coefficients,
-                 WarningSink& warnings);
+                 WarningSink& warnings, const std::string& begun = {});
 
     [[nodiscard]] const CompiledScene& compiled() const { return *compiled_; }
     [[nodiscard]] const std::shared_ptr<const CompiledScene>& shared_compiled() const {
@@ -45,7 +46,7 @@ class SceneSession {
   private:
     [[nodiscard]] AmbientLimits limits_of(const RenderOptions& light) const;
     void make_cache(const RenderOptions& light, const std::string& ambient_file,
-                    OthersValues others);
+                    OthersValues others, const std::string& begun);
 
     std::shared_ptr<const CompiledScene> compiled_;
     WarningSink& warnings_;

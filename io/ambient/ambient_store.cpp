@@ -6,9 +6,10 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <system_error>
 
-#include "io/ambient/ambient_file.h"
+#include "io/files/record_log.h"
 
 namespace lightwalk {
 namespace {
@@ -29,6 +30,18 @@ std::string read_from(int file, std::size_t begin, const std::string& path) {
         if (count == 0) return bytes;
         bytes.append(chunk.data(), static_cast<std::size_t>(count));
     }
+}
+
+/// See AmbientStore::beginning.
+std::string text_of(std::string_view part) {
+    return std::to_string(part.size()) + ' ' + std::to_string(fnv1a(part));
+}
+
+/// Whether a file begins as text_of has said.
+/// @param size  of that part [bytes]
+bool begins_with(std::string_view bytes, const std::string& said, std::size_t& size) {
+    return std::from_chars(said.data(), said.data() + said.size(), size).ec == std::errc() &&
+           size <= bytes.size() && text_of(bytes.substr(0, size)) == said;
 }
 
 void write_at(int file, std::size_t begin, const std::string& bytes, const std::string& path) {
@@ -67,7 +80,8 @@ class AmbientStore::Lock {
 };
 
 AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options,
-                           AmbientCache& cache, WarningSink& warnings, OthersValues others)
+                           AmbientCache& cache, WarningSink& warnings, OthersValues others,
+                           const std::string& begun)
     : path_(path), cache_(cache), others_(others) {
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) {
@@ -78,7 +92,7 @@ AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options
     }
     try {
         const Lock lock(file_, writable_, path_);
-        load(options, warnings);
+        load(options, warnings, begun);
     } catch (...) {
         (void)close(file_);
         throw;
@@ -89,32 +103,58 @@ AmbientStore::~AmbientStore() {
     (void)close(file_);
 }
 
-void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
+void AmbientStore::load(const RenderOptions& options, WarningSink& warnings,
+                        const std::string& begun) {
     struct stat status {};
     if (fstat(file_, &status) != 0) fail(path_, "cannot read");
     if (!S_ISREG(status.st_mode))
         throw InputError({path_, 0}, "an ambient file must be a plain file");
-    const std::string bytes = read_from(file_, 0, path_);
+    std::string bytes = read_from(file_, 0, path_);
     if (bytes.empty() && writable_) {
-        const std::vector<std::string> lines{ambient_option_line(options)};
-        const std::string header = encode_ambient_header(lines);
-        write_at(file_, 0, header, path_);
-        known_ = header.size();
-        fit_.emplace(lines, options, cache_.limits());
-        return;
+        bytes = encode_ambient_header({ambient_option_line(options)});
+        write_at(file_, 0, bytes, path_);
     }
-    const AmbientFile contents = decode_ambient_file(bytes, path_);
+    AmbientFile contents = decode_ambient_file(bytes, path_);
     fit_.emplace(contents.header, options, cache_.limits());
-    loaded_ = use(contents.records);
     known_ = contents.size;
-    if (!fit_->difference().empty()) {
-        std::string text = path_ + ": the ambient file was made with " + fit_->difference() + ": ";
-        text += std::to_string(loaded_.size()) + " of its " +
-                std::to_string(contents.records.size()) + " values are used";
-        if (fit_->loses_values() && writable_)
-            text += ", and values of more bounces than its own are not stored in it";
-        warnings.warn(text);
+    cut_damage(contents, warnings);
+    leave_added(contents, bytes, begun);
+    if (!begun.empty() && beginning_ != begun)
+        warnings.warn(path_ +
+                      ": the ambient file no longer has the values with which this run began: it "
+                      "begins anew");
+    loaded_ = use(contents.records);
+    warn_of_difference(contents.records.size(), warnings);
+}
+
+/// Takes the values that the file has got since a run began out of its contents; none where it does
+/// not begin as `begun` says.
+void AmbientStore::leave_added(AmbientFile& contents, std::string_view bytes,
+                               const std::string& begun) {
+    const std::size_t header = contents.size - contents.records.size() * kAmbientRecordSize;
+    std::size_t size = 0;
+    if (!begins_with(bytes.substr(0, contents.size), begun, size) || size < header ||
+        (size - header) % kAmbientRecordSize != 0)
+        size = contents.size;
+    beginning_ = text_of(bytes.substr(0, size));
+    for (std::size_t at = size; at < contents.size; at += kAmbientRecordSize) {
+        added_.emplace(bytes.substr(at, kAmbientRecordSize));
+        contents.records.pop_back();
     }
+}
+
+void AmbientStore::warn_of_difference(std::size_t values, WarningSink& warnings) const {
+    if (fit_->difference().empty()) return;
+    std::string text = path_ + ": the ambient file was made with " + fit_->difference() + ": ";
+    text +=
+        std::to_string(loaded_.size()) + " of its " + std::to_string(values) + " values are used";
+    if (fit_->loses_values() && writable_)
+        text += ", and values of more bounces than its own are not stored in it";
+    warnings.warn(text);
+}
+
+/// The damaged end is cut off.
+void AmbientStore::cut_damage(const AmbientFile& contents, WarningSink& warnings) const {
     if (contents.damage.empty()) return;
     warnings.warn(path_ + ": " + contents.damage + "; the " +
                   std::to_string(contents.records.size()) + " values before are used" +
@@ -152,6 +192,10 @@ void AmbientStore::stored(const AmbientRecord& record, std::span<const Rgb> /*gr
     if (!kept) return;
     const std::string bytes = encode_ambient_record(*kept);
     const std::lock_guard guard(mutex_);
+    if (const auto there = added_.find(bytes); there != added_.end()) {
+        added_.erase(there);
+        return;
+    }
     const Lock lock(file_, true, path_);
     pass_appended();
     write_at(file_, known_, bytes, path_);

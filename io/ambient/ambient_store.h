@@ -5,6 +5,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "core/ambient/ambient_listener.h"
 #include "core/error.h"
 #include "core/transport/options.h"
+#include "io/ambient/ambient_file.h"
 #include "io/ambient/ambient_fit.h"
 
 namespace lightwalk {
@@ -33,8 +36,13 @@ class AmbientStore final : public AmbientListener {
     /// are used, with a warning, and it stays unchanged. Throws InputError for a file that is no
     /// ambient file, is of another version of the format, or cannot be read.
     /// @param cache  must outlive this
+    /// @param begun  what `beginning` was in a run that this one goes on with: only the values that
+    /// the file had then are loaded, and those that it has got since are not stored once more.
+    /// Where the file does not begin like that any more, all are, with a warning. "": nothing goes
+    /// on
     AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
-                 WarningSink& warnings, OthersValues others = OthersValues::taken);
+                 WarningSink& warnings, OthersValues others = OthersValues::taken,
+                 const std::string& begun = {});
     ~AmbientStore() override;
     AmbientStore(const AmbientStore&) = delete;
     AmbientStore& operator=(const AmbientStore&) = delete;
@@ -42,12 +50,19 @@ class AmbientStore final : public AmbientListener {
     /// The values that were in the file when it was opened, as the cache has them.
     [[nodiscard]] std::vector<AmbientRecord> take_loaded() { return std::exchange(loaded_, {}); }
 
+    /// Says which values are loaded: one word for the length of that part of the file, one for a
+    /// hash of it.
+    [[nodiscard]] const std::string& beginning() const { return beginning_; }
+
     /// Append a value. Throws InputError when the file cannot be written.
     void stored(const AmbientRecord& record, std::span<const Rgb> groups) override;
 
   private:
     class Lock;
-    void load(const RenderOptions& options, WarningSink& warnings);
+    void load(const RenderOptions& options, WarningSink& warnings, const std::string& begun);
+    void leave_added(AmbientFile& contents, std::string_view bytes, const std::string& begun);
+    void warn_of_difference(std::size_t values, WarningSink& warnings) const;
+    void cut_damage(const AmbientFile& contents, WarningSink& warnings) const;
     [[nodiscard]] std::vector<AmbientRecord> use(const std::vector<AmbientRecord>& records);
     void pass_appended();
 
@@ -60,7 +75,9 @@ class AmbientStore final : public AmbientListener {
     std::mutex mutex_;               ///< guards the file
     std::size_t known_ =
         0;  ///< the file has whole records, which were looked at, up to here [bytes]
+    std::string beginning_;
     std::vector<AmbientRecord> loaded_;
+    std::unordered_multiset<std::string> added_;  ///< values that the file has got since, encoded
 };
 
 }  // namespace lightwalk

@@ -70,6 +70,16 @@ void check_header(std::string_view found, std::string_view expected, const std::
     }
 }
 
+/// Hands out the whole records at the beginning of `rest`, and returns what follows them.
+std::string_view take_records(std::string_view rest,
+                              const std::function<void(std::string_view)>& take) {
+    while (const std::size_t size = record_size(rest)) {
+        take(rest.substr(kHeadBytes, size - kHeadBytes));
+        rest.remove_prefix(size);
+    }
+    return rest;
+}
+
 }  // namespace
 
 std::uint64_t fnv1a(std::string_view bytes) {
@@ -108,10 +118,7 @@ void RecordLog::start(const std::string& head, const std::string& header,
             const std::string_view found = header_of(rest);
             check_header(found, header, path_);
             rest.remove_prefix(std::min(rest.size(), found.size() + 1));
-            while (const std::size_t size = record_size(rest)) {
-                take(rest.substr(kHeadBytes, size - kHeadBytes));
-                rest.remove_prefix(size);
-            }
+            rest = take_records(rest, take);
             whole = static_cast<std::size_t>(rest.data() - bytes.data());
             if (!rest.empty())
                 warnings.warn(path_ + ": the last " + std::to_string(rest.size()) +
@@ -122,6 +129,17 @@ void RecordLog::start(const std::string& head, const std::string& header,
         fail_at(path_, "cannot cut off a damaged end");
     if (lseek(file_, 0, SEEK_END) < 0) fail_at(path_, "cannot write");
     if (whole == 0) write_all(file_, head, path_);
+}
+
+void RecordLog::look_through(const std::string& path,
+                             const std::function<void(std::string_view)>& take) {
+    if (!is_readable_file(path)) return;
+    const std::string bytes = read_file(path, kLargestLog);
+    std::string_view rest = bytes;
+    if (!rest.starts_with(kFirstLine)) return;
+    rest.remove_prefix(std::min(
+        rest.size(), kFirstLine.size() + header_of(rest.substr(kFirstLine.size())).size() + 1));
+    (void)take_records(rest, take);
 }
 
 RecordLog::~RecordLog() {

@@ -24,6 +24,11 @@ class RecordLog {
     RecordLog(const RecordLog&) = delete;
     RecordLog& operator=(const RecordLog&) = delete;
 
+    /// The whole records of a file, of whatever header; none where it is no log. Throws InputError
+    /// for a file that cannot be read.
+    static void look_through(const std::string& path,
+                             const std::function<void(std::string_view)>& take);
+
     /// Throws InputError when the file cannot be written.
     void append(std::string_view payload);
     /// Wait until everything appended so far is on the disk.

@@ -132,6 +132,64 @@ TEST_CASE("render: a deterministic run that is killed goes on with its rounds, w
     }
 }
 
+TEST_CASE("render: rounds go on where a file keeps their values, which has grown since") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string checkpoint = folder.path("blocks"), out = folder.path("out.hdr");
+    const std::string stats = folder.path("stats.json"), values = folder.path("room.amb");
+    const std::vector<std::string> light{
+        "-ps", "1",   "-ab", "2", "-ad", "256", "-as", "0", "-aa", ".1", "--deterministic",
+        "-af", values};
+    const std::vector<std::string> picture =
+        with(light, {"-x", kLitWidth, "-y", kLitHeight, "-o", out, "--stats", stats, scene});
+    const auto computed = [&](const std::vector<std::string>& more, const std::string& said = {},
+                              const std::vector<std::string>& launcher = {}) {
+        const ProgramResult result = run_program(line(with(more, picture)), "", launcher);
+        CHECK(result.status == 0);
+        if (said.empty())
+            CHECK(result.err.empty());
+        else
+            CHECK(result.err.find(said) != std::string::npos);
+        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+    };
+    // Values of an earlier run are where all begin.
+    REQUIRE(run_program(line(with(light, {"-x", "15", "-y", "10", "-o", out, scene}))).status == 0);
+    const std::string before = read_whole(values);
+    const int whole = computed({});
+    const std::string expected = pixel_bytes(read_whole(out)), all = read_whole(values);
+    (void)folder.write("room.amb", before);
+    std::filesystem::remove(out);
+    {
+        RunningProgram program(line(with({"-n", "1", "--checkpoint", checkpoint}, picture)));
+        REQUIRE(comes_true([&] { return holds_blocks(checkpoint, 200000); }));
+    }  // killed
+    REQUIRE_FALSE(std::filesystem::exists(out));
+    const std::string kept = read_whole(checkpoint), grown = read_whole(values);
+    REQUIRE(grown.size() > before.size());
+    const std::vector<std::string> resumed{"--checkpoint", checkpoint, "--resume"};
+    CHECK(computed(resumed) < whole);
+    CHECK(pixel_bytes(read_whole(out)) == expected);
+    CHECK(read_whole(values) == all);
+    CHECK_FALSE(std::filesystem::exists(checkpoint));
+    // It has other values than before: what was kept is of no use.
+    const auto restore = [&](const std::string& file) {
+        (void)folder.write("blocks", kept);
+        (void)folder.write("room.amb", file);
+    };
+    restore(before.substr(0, before.size() / 2));
+    (void)computed(resumed, "begins anew");
+    restore({});
+    (void)computed(resumed, "begins anew");
+    if (!mpirun(1)) return;
+    for (const Split& split : {kSplits[0], kSplits[6]}) {
+        CAPTURE(split.ranks);
+        restore(grown);
+        CHECK(computed(with(resumed, split.options), {}, *mpirun(split.ranks)) < whole);
+        CHECK(pixel_bytes(read_whole(out)) == expected);
+        CHECK(read_whole(values) == all);
+    }
+}
+
 TEST_CASE("render: of a deterministic sequence that goes on, pictures begin with the same values") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);

@@ -85,8 +85,11 @@ struct RendererOptions {
     // For this project's own programs.
     std::optional<ExecutorKind> executor;  ///< what runs the threads; nothing: the usual one
     StopFlag* stop =
-        nullptr;           ///< requested: as after cancel(), for good. Must outlive the renderer
-    bool steered = false;  ///< frames() is used, and nothing else
+        nullptr;  ///< requested: as after cancel(), for good. Must outlive the renderer
+    /// Of a run that goes on: the values that the ambient file had when it began are all that is
+    /// taken from it (AmbientStore::beginning); "": all values are.
+    std::string ambient_beginning = {};
+    bool steered = false;             ///< frames() is used, and nothing else
     bool answers_rays = false;        ///< ray lists are started, and no pictures, by ranks
     RayObserver* observer = nullptr;  ///< watches the rays of ray lists, of one thread
     /// Turns ray `index` of a list, and its nearest hit before shading, into bytes: a list's answer

@@ -72,6 +72,39 @@ TEST_CASE(
     CHECK(files.warnings.messages.empty());
 }
 
+TEST_CASE("checkpoint: with other values of an ambient file than before nothing is known") {
+    Files files;
+    const auto open = [&](const std::string& beginning) {
+        return std::make_unique<Checkpoint>(files.path, kHeader, files.warnings, beginning);
+    };
+    CHECK(Checkpoint::beginning_of(files.path).empty());
+    const BlockPixels block = block_at({0, 0, 8, 8});
+    {
+        const auto checkpoint = open("12 345");
+        // Before anything is kept: from now on the file grows.
+        CHECK(Checkpoint::beginning_of(files.path) == "12 345");
+        const auto picture = checkpoint->picture(1, kWhole);
+        (void)picture->known_steps("empty cache");
+        picture->keep_step("points");
+        picture->keep(block);
+    }
+    CHECK(open("12 345")->picture(1, kWhole)->known().size() == 1);
+    CHECK(open("12 345")->has_rounds(1));
+    {
+        const auto checkpoint = open("24 678");
+        CHECK(Checkpoint::beginning_of(files.path) == "24 678");
+        CHECK(checkpoint->picture(1, kWhole)->known().empty());
+        CHECK_FALSE(checkpoint->has_rounds(1));
+        checkpoint->picture(2, kWhole)->keep(block);
+    }
+    const auto checkpoint = open("24 678");
+    CHECK(checkpoint->picture(1, kWhole)->known().empty());
+    CHECK(checkpoint->picture(2, kWhole)->known().size() == 1);
+    CHECK(files.warnings.messages.empty());
+    (void)files.folder.write("other", "not a log\n\n");
+    CHECK(Checkpoint::beginning_of(files.folder.path("other")).empty());
+}
+
 TEST_CASE("checkpoint: steps of rounds are known where these began alike") {
     Files files;
     const auto steps_of = [&](int frame, const std::string& beginning,

@@ -39,9 +39,9 @@ AmbientRecord record(int level, float x) {
 /// A run: its cache, and the file before it.
 struct Run {
     Run(const std::string& path, const RenderOptions& options,
-        OthersValues others = OthersValues::taken)
+        OthersValues others = OthersValues::taken, const std::string& begun = {})
         : cache(ambient_limits({}, 1, options.ambient_accuracy, options.ambient_resolution)),
-          store(path, options, cache, warnings, others) {}
+          store(path, options, cache, warnings, others, begun) {}
     [[nodiscard]] std::uint64_t values() const { return cache.log_mean().count; }
     void insert(const AmbientRecord& record) {
         cache.insert(record);
@@ -51,6 +51,52 @@ struct Run {
     SerialCache cache;
     AmbientStore store;
 };
+
+TEST_CASE("ambient files: a run that goes on has the values with which it began") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("a.amb");
+    const RenderOptions options = options_of(2, 0.2);
+    const auto go_on = [&](const std::string& begun) {
+        return Run(path, options, OthersValues::left, begun);
+    };
+    Run(path, options).insert(record(0, 0.125f));
+    std::string begun;
+    {
+        Run run(path, options, OthersValues::left);
+        begun = run.store.beginning();
+        run.insert(record(0, 0.25f));
+        CHECK(run.store.beginning() == begun);
+    }                                             // killed
+    Run(path, options).insert(record(0, 0.75f));  // another one
+    const std::string grown = read_file(path);
+    {
+        Run again = go_on(begun);
+        CHECK(again.values() == 1);
+        CHECK(again.store.beginning() == begun);
+        again.insert(record(0, 0.25f));
+        CHECK(read_file(path) == grown);  // it is there
+        again.insert(record(0, 0.5f));
+        CHECK(read_file(path).size() == grown.size() + kAmbientRecordSize);
+        again.insert(record(0, 0.25f));  // there is another one like it
+        CHECK(read_file(path).size() == grown.size() + 2 * kAmbientRecordSize);
+        CHECK(again.warnings.all.empty());
+    }
+    const auto begins_anew = [&](const std::string& wanted) {
+        Run run = go_on(wanted);
+        CHECK(run.store.beginning() != wanted);
+        REQUIRE(run.warnings.all.size() == 1);
+        CHECK(run.warnings.all[0].find("begins anew") != std::string::npos);
+        return run.values();
+    };
+    CHECK(begins_anew("12 345") == 5);
+    CHECK(begins_anew("nonsense") == 5);
+    std::string changed = read_file(path);
+    changed[std::stoul(begun) - 1] ^= 1;
+    (void)folder.write("a.amb", changed);
+    CHECK(begins_anew(begun) == 5);
+    std::filesystem::remove(path);
+    CHECK(begins_anew(begun) == 0);
+}
 
 TEST_CASE("ambient files of other options: values that serve are used, one warning tells why") {
     const TemporaryFolder folder;
