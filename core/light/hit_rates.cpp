@@ -11,7 +11,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kShadowRays = 40000;  ///< that the measurement may cost
+constexpr std::size_t kShadowRays = 10000;  ///< that the measurement may cost
 constexpr std::size_t kLeastPoints = 64, kMostPoints = 2000;
 constexpr std::size_t kRound = 32, kRoundParts = 4;  ///< points, and parts of a round
 constexpr double kPriorShare =

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace lightwalk {
@@ -164,6 +165,14 @@ bool is_transform_option(std::string_view word) {
 ParsedTransform parse_transform(std::span<const std::string> words) {
     const std::vector<std::string_view> views(words.begin(), words.end());
     return parse_transform(views);
+}
+
+const ParsedTransform& TransformMemo::parse(std::span<const std::string> words) {
+    std::string key;
+    for (const std::string& word : words) key.append(word).push_back('\0');
+    const auto [entry, fresh] = known_.try_emplace(std::move(key));
+    if (fresh) entry->second = parse_transform(words);
+    return entry->second;
 }
 
 ParsedTransform parse_transform(std::span<const std::string_view> words) {

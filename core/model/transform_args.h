@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "core/math/transform.h"
 
@@ -20,6 +21,16 @@ struct ParsedTransform {
 /// end it. Source: Radiance manual page xform(1).
 [[nodiscard]] ParsedTransform parse_transform(std::span<const std::string> words);
 [[nodiscard]] ParsedTransform parse_transform(std::span<const std::string_view> words);
+
+/// parse_transform() of words that come again and again: xform writes the same ones behind each
+/// modifier of what it places, thousands of them in a scene.
+class TransformMemo {
+  public:
+    [[nodiscard]] const ParsedTransform& parse(std::span<const std::string> words);
+
+  private:
+    std::unordered_map<std::string, ParsedTransform> known_;  ///< by the words, each ended by a 0
+};
 
 /// Whether `word` is one of the transform options, exactly.
 [[nodiscard]] bool is_transform_option(std::string_view word);

@@ -17,6 +17,7 @@ struct TraceContext;
 class Bsdf;
 class FunctionBinding;
 class FunctionEnvironment;
+class TransformMemo;
 
 /// How the appearance of a material changes when the eye moves.
 enum class Appearance : std::uint8_t {
@@ -75,6 +76,7 @@ struct ModifierBuild {
     ModifierId next;             ///< the modifier's own modifier
     Resources& resources;
     FunctionEnvironment& functions;
+    TransformMemo& transforms;
     WarningSink& warnings;
     /// Global id of primitive.references[i]; kVoid for void. `undefined`: whether that name is
     /// defined nowhere.

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "core/model/transform_args.h"
 #include "core/scene/scene_tables.h"
 
 namespace lightwalk {
@@ -124,15 +125,17 @@ std::vector<NamedFile> ModifierTable::pictures() const {
 void ModifierTable::compile(FindModifierFactory modifier_factory, Resources& resources,
                             WarningSink& warnings, const TaskRunner& task_runner) {
     resources.prepare(pictures(), task_runner);
+    TransformMemo transforms;
     for (std::size_t i = 0; i < records_.size(); ++i) {
         if (used_[i] && !records_[i].node)
             compile(ModifierId{static_cast<std::int32_t>(i)}, modifier_factory, resources,
-                    warnings);
+                    transforms, warnings);
     }
 }
 
 void ModifierTable::compile(ModifierId id, FindModifierFactory modifier_factory,
-                            Resources& resources, WarningSink& warnings) {
+                            Resources& resources, TransformMemo& transforms,
+                            WarningSink& warnings) {
     ModifierRecord& record = records_[static_cast<std::size_t>(index(id))];
     const Primitive& primitive = *record.primitive;
     const ModifierFactory factory = modifier_factory(record.type);
@@ -143,6 +146,7 @@ void ModifierTable::compile(ModifierId id, FindModifierFactory modifier_factory,
         record.next,
         resources,
         functions_,
+        transforms,
         warnings,
         [&record](std::size_t k) {
             return k < record.references.size() ? record.references[k] : kVoid;

@@ -221,11 +221,13 @@ void Scene::Impl::add_lambertian(FindModifierFactory modifier_factory, Resources
     lambertian->name = "irradiance";
     lambertian->reals = {kPi, kPi, kPi, 0, 0};
     FunctionEnvironment functions;
+    TransformMemo transforms;
     const ModifierBuild build{*lambertian,
                               kVoid,
                               kVoid,
                               resources,
                               functions,
+                              transforms,
                               warnings,
                               [](std::size_t) { return kVoid; },
                               [](std::size_t) { return true; },

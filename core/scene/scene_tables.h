@@ -86,7 +86,7 @@ class ModifierTable {
     [[nodiscard]] std::vector<NamedFile> pictures() const;
     void add(const LoadedModel& loaded, std::size_t first, std::size_t last);
     void compile(ModifierId id, FindModifierFactory modifier_factory, Resources& resources,
-                 WarningSink& warnings);
+                 TransformMemo& transforms, WarningSink& warnings);
     [[nodiscard]] MaterialTraits material_traits(ModifierId material) const;
 
     std::vector<ModifierRecord> records_;

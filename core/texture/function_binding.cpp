@@ -116,7 +116,7 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
     while (word < primitive.strings.size() && !is_transform_option(primitive.strings[word])) ++word;
     const auto words =
         std::span(primitive.strings).subspan(std::min(word, primitive.strings.size()));
-    const ParsedTransform parsed = parse_transform(words);
+    const ParsedTransform& parsed = build.transforms.parse(words);
     if (parsed.words != words.size()) throw modifier_error(primitive, "bad transform");
     transform_ = parsed.transform;
     transformed_ = !transform_.is_identity();

@@ -113,6 +113,26 @@ TEST_CASE("numbers are strictly decimal") {
     }
 }
 
+TEST_CASE("a memo answers as the parser does, and tells words from words") {
+    TransformMemo memo;
+    const std::vector<std::vector<std::string>> all{{},
+                                                    {"-t", "1", "2", "3"},
+                                                    {"-t", "12", "3"},
+                                                    {"-rz", "30", "-s", "2"},
+                                                    {"-rz", "30", "-s"},
+                                                    {""},
+                                                    {"-i", "2", "-t", "1", "2", "3"}};
+    for (int round = 0; round < 2; ++round) {
+        for (const std::vector<std::string>& words : all) {
+            const ParsedTransform right = parse_transform(words), told = memo.parse(words);
+            CHECK(told.words == right.words);
+            CHECK(told.transform.forward == right.transform.forward);
+            CHECK(told.transform.inverse == right.transform.inverse);
+            CHECK(told.transform.scale == right.transform.scale);
+        }
+    }
+}
+
 TEST_CASE("transform options are told from other words exactly") {
     for (const char* option : {"-t", "-s", "-i", "-rx", "-ry", "-rz", "-mx", "-my", "-mz"}) {
         CHECK(is_transform_option(option));
