@@ -53,6 +53,7 @@ Ranks::Ranks(Communicator& communicator, const RankOptions& options, const Rende
     settings.stride = options.stride;
     const bool exchange = exchange_values(options, work);
     settings.ambient_batch = exchange ? static_cast<std::size_t>(options.ambient_batch) : 0;
+    settings.makes_values = caches_ambient_values(work.light) && !work.deterministic;
     settings.rays = work.answers_rays;
     settings.projectors = work.reuse ? options.projectors : 0;
     // Chunks of rays are few, and so are the uncached pixels of a walk's frames: one master deals

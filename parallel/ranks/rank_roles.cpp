@@ -25,11 +25,12 @@ RankRoles::RankRoles(int rank, const Topology& topology, const RankSettings& set
     const auto workers = std::make_shared<const std::vector<int>>(topology.worker_ranks());
     if (rank == 0) {
         const int threads = settings.slots * static_cast<int>(workers->size());
-        queue_.emplace(WorkQueue::Options{topology.children,
-                                          workers->size(),
-                                          collectives_.members(Collective::Group::owners),
-                                          {settings.block, settings.stride, threads},
-                                          static_cast<std::uint32_t>(kChunksAThread * threads)});
+        queue_.emplace(
+            WorkQueue::Options{topology.children,
+                               workers->size(),
+                               collectives_.members(Collective::Group::owners),
+                               {settings.block, settings.stride, threads, settings.makes_values},
+                               static_cast<std::uint32_t>(kChunksAThread * threads)});
     }
     for (const Topology::SubQueue& sub : topology.sub_queues) {
         if (sub.rank != rank) continue;

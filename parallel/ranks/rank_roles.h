@@ -19,6 +19,7 @@ struct RankSettings {
     int slots = 1;                   ///< threads that trace on each worker
     int ahead = 1;                   ///< pieces of work that wait on each worker
     int block = 0, stride = 0;       ///< see BlockPolicy
+    bool makes_values = false;       ///< likewise
     std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
     EncodePiece encode = encode_piece;
     Pulse::Times pulse = {};  ///< of ranks on several machines

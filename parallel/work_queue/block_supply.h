@@ -11,9 +11,10 @@
 namespace lightwalk {
 
 struct BlockPolicy {
-    int side = 0;    ///< of blocks [pixels]; 0: follows what blocks take
-    int stride = 0;  ///< consecutive blocks lie so many apart; 0: the number of workers
-    int slots = 1;   ///< threads that trace, of all workers together
+    int side = 0;               ///< of blocks [pixels]; 0: follows what blocks take
+    int stride = 0;             ///< consecutive blocks lie so many apart; 0: the number of workers
+    int slots = 1;              ///< threads that trace, of all workers together
+    bool makes_values = false;  ///< pixels make ambient values, and so take very different times
 };
 
 /// The blocks of several pictures, one picture after the other, and the parts that come back.

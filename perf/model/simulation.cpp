@@ -86,6 +86,7 @@ void Simulation::make_roles() {
     settings.block = run_.block;
     settings.stride = run_.stride;
     settings.ambient_batch = static_cast<std::size_t>(run_.ambient_batch);
+    settings.makes_values = run_.ambient;
     settings.encode = [](const PixelRectangle&, const std::vector<PixelValue>&) {
         return std::string();
     };
