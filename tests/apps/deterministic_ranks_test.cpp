@@ -1,6 +1,8 @@
 // --deterministic: the same values, by any division, also beside other runs and after a crash.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,6 +12,16 @@
 
 using namespace lightwalk::test;
 using namespace lightwalk::test::rank_runs;
+
+namespace {
+
+/// What starts a program to which a read-only file is one, also where root runs the tests.
+std::vector<std::string> without_privilege() {
+    if (geteuid() != 0) return {};
+    return {"/usr/bin/setpriv", "--bounding-set", "-dac_override"};
+}
+
+}  // namespace
 
 TEST_CASE("render on ranks: --deterministic gives the bytes of one process with indirect light") {
     if (!have_mpi()) return;
@@ -187,6 +199,112 @@ TEST_CASE("render: rounds go on where a file keeps their values, which has grown
         CHECK(computed(with(resumed, split.options), {}, *mpirun(split.ranks)) < whole);
         CHECK(pixel_bytes(read_whole(out)) == expected);
         CHECK(read_whole(values) == all);
+    }
+}
+
+TEST_CASE("render: rounds go on where a file gives them values, and takes none") {
+    if (geteuid() == 0 && !std::filesystem::exists(without_privilege().front())) {
+        MESSAGE("skipped: root may write all files here");
+        return;
+    }
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string checkpoint = folder.path("blocks"), out = folder.path("out.hdr");
+    const std::string stats = folder.path("stats.json"), values = folder.path("room.amb");
+    const std::vector<std::string> light{
+        "-ps", "1",   "-ab", "2", "-ad", "256", "-as", "0", "-aa", ".1", "--deterministic",
+        "-af", values};
+    const std::vector<std::string> picture =
+        with(light, {"-x", kLitWidth, "-y", kLitHeight, "-o", out, "--stats", stats, scene});
+    REQUIRE(run_program(line(with(light, {"-x", "15", "-y", "10", "-o", out, scene}))).status == 0);
+    const std::string before = read_whole(values);
+    std::filesystem::permissions(values, std::filesystem::perms::owner_read);
+    const auto computed = [&](const std::vector<std::string>& more,
+                              std::vector<std::string> launcher = {}) {
+        std::vector<std::string> start = without_privilege();
+        start.insert(start.end(), launcher.begin(), launcher.end());
+        const ProgramResult result = run_program(line(with(more, picture)), "", start);
+        CHECK(result.status == 0);
+        CHECK(result.err.find("cannot be written; its values are used") != std::string::npos);
+        CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+        CHECK(read_whole(values) == before);
+        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+    };
+    const int whole = computed({});
+    const std::string expected = pixel_bytes(read_whole(out));
+    std::filesystem::remove(out);
+    {
+        RunningProgram program(line(with({"-n", "1", "--checkpoint", checkpoint}, picture)),
+                               without_privilege());
+        REQUIRE(comes_true([&] { return holds_blocks(checkpoint, 200000); }));
+    }  // killed
+    REQUIRE_FALSE(std::filesystem::exists(out));
+    const std::string kept = read_whole(checkpoint);
+    const std::vector<std::string> resumed{"--checkpoint", checkpoint, "--resume"};
+    CHECK(computed(resumed) < whole);
+    CHECK(pixel_bytes(read_whole(out)) == expected);
+    CHECK_FALSE(std::filesystem::exists(checkpoint));
+    if (!mpirun(1)) return;
+    for (const Split& split : {kSplits[0], kSplits[6]}) {
+        CAPTURE(split.ranks);
+        (void)folder.write("blocks", kept);
+        CHECK(computed(with(resumed, split.options), *mpirun(split.ranks)) < whole);
+        CHECK(pixel_bytes(read_whole(out)) == expected);
+    }
+}
+
+TEST_CASE("render: a deterministic sequence goes on where a file keeps its values") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string views =
+        "rview -vp 0 -6 2\nrview -vp 1 -6 2 -vd -.1 1 -.2\nrview -vp 3 -7 3 -vd -.4 1 -.3\n";
+    const std::string checkpoint = folder.path("blocks"), values = folder.path("room.amb");
+    const std::vector<std::string> light =
+        with(kRoundsRun, {"-ad", "256", "-aa", ".15", "-af", values});
+    const auto words = [&](const std::string& name, const std::vector<std::string>& more) {
+        return line(with(with(light, {"-S", "1", "-x", "360", "-y", "240"}),
+                         with(more, {"-o", folder.path(name + "%d.hdr"), scene})));
+    };
+    // Values of an earlier run are where all begin.
+    REQUIRE(run_program(
+                line(with(light, {"-x", "15", "-y", "10", "-o", folder.path("small.hdr"), scene})))
+                .status == 0);
+    const std::string before = read_whole(values);
+    REQUIRE(run_program(words("whole", {}), views).status == 0);
+    const std::string all = read_whole(values);
+    REQUIRE(all.size() > before.size());
+    (void)folder.write("room.amb", before);
+    // A run that has drawn the first one, and is in the rounds of the second or the third one.
+    {
+        RunningProgram program(words("part", {"-n", "1", "--checkpoint", checkpoint}));
+        program.send(views);
+        program.end_input();
+        REQUIRE(comes_true([&] { return std::filesystem::exists(folder.path("part1.hdr")); }));
+    }  // killed
+    if (std::filesystem::exists(folder.path("part3.hdr"))) return;  // it was quicker
+    const std::string kept = read_whole(checkpoint), grown = read_whole(values);
+    CHECK(grown.size() > before.size());
+    const std::vector<Split> splits{{1, {"-n", "2"}, {}}, kSplits[0], kSplits[6]};
+    for (const Split& split : splits) {
+        const bool alone = split.ranks == 1;
+        if (!alone && !mpirun(1)) return;
+        CAPTURE(split.ranks);
+        (void)folder.write("blocks", kept);
+        (void)folder.write("room.amb", grown);
+        for (const char* number : {"2", "3"})
+            std::filesystem::remove(folder.path("part" + std::string(number) + ".hdr"));
+        const ProgramResult result = run_program(
+            words("part", with({"--checkpoint", checkpoint, "--resume"}, split.options)), views,
+            alone ? std::vector<std::string>{} : *mpirun(split.ranks));
+        CHECK(result.err.empty());
+        CHECK(result.status == 0);
+        for (const char* number : {"1", "2", "3"}) {
+            CAPTURE(number);
+            CHECK(pixel_bytes(read_whole(folder.path("part" + std::string(number) + ".hdr"))) ==
+                  pixel_bytes(read_whole(folder.path("whole" + std::string(number) + ".hdr"))));
+        }
+        CHECK(read_whole(values) == all);
+        CHECK_FALSE(std::filesystem::exists(checkpoint));
     }
 }
 
