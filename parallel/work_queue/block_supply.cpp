@@ -16,10 +16,20 @@ constexpr double kLeastSeconds = 0.002;
 /// Share of what is left that a thread is given at once: small enough that all end together
 /// (Polychronopoulos and Kuck, "Guided Self-Scheduling", IEEE Transactions on Computers 1987).
 constexpr double kShareAtOnce = 1.0 / 4;
-/// The same where pixels make ambient values: one of them takes as long as hundreds of others, and
-/// those that make any lie side by side. Before the picture almost every pixel of the first blocks
-/// does.
-constexpr double kShareWithValues = 1.0 / 16, kPrepassShare = 1.0 / 32;
+/// The same where indirect light is looked for before a picture: in the first blocks almost every
+/// pixel makes ambient values, in the last ones almost none does.
+constexpr double kPrepassShareAtOnce = 1.0 / 32;
+/// Where pixels of a picture make ambient values one of them takes as long as hundreds of others,
+/// and those that make any lie side by side: blocks are as small as for so many times the threads.
+/// But among a hundred threads they are small anyway, and would only be more messages.
+constexpr int kTimesWithValues = 4, kMostWithValues = 128;
+
+/// By how many threads what is left is shared.
+int sharers(const BlockPolicy& policy, bool keep) {
+    const int threads = std::max(1, policy.slots);
+    if (!keep || !policy.makes_values) return threads;
+    return std::max(threads, std::min(kTimesWithValues * threads, kMostWithValues));
+}
 
 /// Every stride-th of the list, from the first, then from the second, and so on.
 std::deque<PixelRectangle> in_strides(const std::vector<PixelRectangle>& list, std::size_t stride) {
@@ -81,10 +91,8 @@ JobBlock BlockSupply::take_block(Job& job) const {
     job.blocks.pop_front();
     if (policy_.side == 0 || !job.start.keep) {
         const int alignment = job.start.alignment;
-        const double share = !job.start.keep        ? kPrepassShare
-                             : policy_.makes_values ? kShareWithValues
-                                                    : kShareAtOnce;
-        double pixels = share * job.pixels_waiting / std::max(1, policy_.slots);
+        const double share = job.start.keep ? kShareAtOnce : kPrepassShareAtOnce;
+        double pixels = share * job.pixels_waiting / sharers(policy_, job.start.keep);
         if (job.seconds_done > 0)
             pixels = std::max(pixels, kLeastSeconds * job.pixels_timed / job.seconds_done);
         while (static_cast<double>(block.pixels()) > 1.5 * pixels &&

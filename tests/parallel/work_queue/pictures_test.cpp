@@ -293,19 +293,23 @@ TEST_CASE(
 }
 
 TEST_CASE("where pixels make ambient values no block takes much of a small picture") {
-    // Of a picture at its beginning, for two threads: the largest of the blocks that they get.
-    const auto largest = [](bool makes_values) {
-        WorkQueue queue({{1, 2}, 2, {}, {0, 0, 2, makes_values}, 1});
+    // Of a picture at its beginning: the largest of the blocks that threads get.
+    const auto largest = [](int threads, const PixelRectangle& area, bool makes_values) {
+        WorkQueue queue({{1, 2}, 2, {}, {0, 0, threads, makes_values}, 1});
         Outbox out;
-        queue.start(PictureJob{0, {0, 0, 160, 120}, 8, true, "", {}, false}, out);
+        queue.start(PictureJob{0, area, 8, true, "", {}, false}, out);
         out = {};
         queue.handle(1, WorkRequest{20, {}}, out);
         std::size_t most = 0;
         for (const JobBlock& one : blocks_of(out)) most = std::max(most, one.block.pixels());
         return most;
     };
-    CHECK(largest(true) * 10 < 160 * 120);
-    CHECK(largest(false) * 10 > 160 * 120);
+    const PixelRectangle small{0, 0, 160, 120}, large{0, 0, 800, 600};
+    CHECK(largest(2, small, true) * 10 < 160 * 120);
+    CHECK(largest(2, small, false) * 10 > 160 * 120);
+    // Among many threads blocks are small by themselves.
+    CHECK(largest(32, large, true) < largest(32, large, false));
+    CHECK(largest(128, large, true) == largest(128, large, false));
 }
 
 TEST_CASE("sub-queues spare rank 0 messages") {
