@@ -32,8 +32,9 @@ struct Machine {
     std::vector<double> crowding{1};
     double background = 0;  ///< threads of other programs on each node that are always ready to run
     double slowness = 1;    ///< processing times, relative to the machine of the cost map
-    bool unpacks =
-        true;  ///< whether rank 0 unpacks the parts of the picture, or forwards them as they are
+    /// Whether rank 0 unpacks the parts of the picture, as the program does, or forwards them as
+    /// they are, as the paper's did.
+    bool unpacks = true;
     double value_work = 1e-6;  ///< processor time to add an ambient value that another rank made
 };
 
