@@ -139,6 +139,14 @@ void WalkSimulation::use_all_threads(std::size_t rank, double seconds, std::func
     }
 }
 
+/// Rank 0's threads unpack the parts of the others side by side; its own is not packed.
+double WalkSimulation::unpack_seconds() const {
+    if (!machine_.unpacks) return 0;
+    const int parts = std::min(walk_.ranks, walk_.projectors);
+    const int one_after_the_other = (parts - 1 + walk_.threads - 1) / walk_.threads;
+    return costs_.decode * walk_.width * walk_.height * one_after_the_other / parts;
+}
+
 template <class Step>
 void WalkSimulation::take_step(std::size_t rank, Step step) {
     Outbox out;
@@ -146,9 +154,7 @@ void WalkSimulation::take_step(std::size_t rank, Step step) {
     for (TracerNews& news : out.tracers) handle(rank, std::move(news));
     for (const ProgramNews& news : out.program) {
         if (!std::holds_alternative<FinishedFrame>(news)) continue;
-        // One thread unpacks the parts.
-        const double unpacking = machine_.unpacks ? costs_.decode * walk_.width * walk_.height : 0;
-        at(now_ + machine_.slowness * unpacking, [this] { end_frame(); });
+        at(now_ + machine_.slowness * unpack_seconds(), [this] { end_frame(); });
     }
     send(std::move(out.messages));
 }

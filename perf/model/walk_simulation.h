@@ -101,6 +101,7 @@ class WalkSimulation {
     void check(std::size_t rank);
     void trace(std::size_t rank, const PixelRun& run);
     void gather(std::size_t rank);
+    [[nodiscard]] double unpack_seconds() const;
     [[nodiscard]] double pixels_of(std::size_t owner) const;
     [[nodiscard]] FrameNumber frame() const { return static_cast<FrameNumber>(frames_done_) + 1; }
     [[nodiscard]] std::vector<std::size_t> beside(std::size_t owner) const {
