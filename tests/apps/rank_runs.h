@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -111,6 +112,16 @@ inline bool holds_blocks(const std::string& checkpoint, std::uintmax_t least = 4
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(checkpoint, none);
     return !none && size > least;
+}
+
+/// What a run that goes on says, but for the line that its checkpoint ends in the midst of a
+/// record: so it does where a run was killed while it wrote one.
+inline std::string beside_cut(const std::string& said) {
+    std::istringstream lines(said);
+    std::string others;
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(" bytes are damaged and cut off") == std::string::npos) others += line + '\n';
+    return others;
 }
 
 inline std::vector<std::string> with(std::vector<std::string> words,
