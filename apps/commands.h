@@ -1,5 +1,6 @@
 #pragma once
 // The commands of the program, and what it exits with.
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 namespace lightwalk {
 
 class Communicator;
+class ResidentScene;
 
 inline constexpr int kSuccessStatus = 0;
 inline constexpr int kFailureStatus = 1;  ///< bad input, or output that could not be written
@@ -31,6 +33,9 @@ int run_install_names(const std::vector<std::string>& words, Communicator* ranks
 int run_rpict(const std::vector<std::string>& words, Communicator* ranks);
 int run_rtrace(const std::vector<std::string>& words, Communicator* ranks);
 int run_rcontrib(const std::vector<std::string>& words, Communicator* ranks);
+/// run_rtrace(), which does not read the scene where it is this one.
+int run_rtrace_on(const std::shared_ptr<const ResidentScene>& scene,
+                  const std::vector<std::string>& words);
 
 /// The commands in With::commands.
 inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFreeze = 16,

@@ -1,10 +1,12 @@
 // lightwalk trace: single rays, as rtrace answers them.
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "apps/command_run.h"
 #include "apps/ray_stream.h"
+#include "apps/serve/scene_server.h"
 #include "apps/session/render_backend.h"
 #include "apps/session/run_header.h"
 #include "apps/session/stopwatch.h"
@@ -14,6 +16,14 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kEnough = 1 << 16;  ///< bytes of output that are worth writing
+
+TraceCommand rtrace_command() {
+    TraceCommand command;
+    command.common.called = "rtrace";
+    command.common.request.source.allow_commands = true;
+    command.common.set_threads(1);
+    return command;
+}
 
 class TraceRun final : CommandRun {
   public:
@@ -34,6 +44,7 @@ class TraceRun final : CommandRun {
     }
 
     int run() {
+        if (command_.serve) return serve();
         join(task().options);
         int status = kSuccessStatus;
         if (!tree_)
@@ -46,6 +57,15 @@ class TraceRun final : CommandRun {
     }
 
   private:
+    /// Stands ready for rtrace, whose defaults count: this process traces no ray.
+    int serve() {
+        if (command_.common.scene_files().size() != 1 || !speaks())
+            throw UsageError("option --serve: expected one octree, and one process");
+        return serve_scene(rtrace_command().common.request.source,
+                           command_.common.scene_files().front(),
+                           std::chrono::duration<double>(command_.idle));
+    }
+
     /// @param ranks  that share the rays; null: this process does all
     int trace(Ranks* ranks) {
         Renderer renderer = open_renderer(ranks, task());
@@ -175,11 +195,14 @@ int run_trace(const std::vector<std::string>& words, Communicator* ranks) {
 }
 
 int run_rtrace(const std::vector<std::string>& words, Communicator* ranks) {
-    TraceCommand command;
-    command.common.called = "rtrace";
-    command.common.request.source.allow_commands = true;
-    command.common.set_threads(1);
-    return run_command<TraceRun>(std::move(command), words, ranks);
+    return run_command<TraceRun>(rtrace_command(), words, ranks);
+}
+
+int run_rtrace_on(const std::shared_ptr<const ResidentScene>& scene,
+                  const std::vector<std::string>& words) {
+    TraceCommand command = rtrace_command();
+    command.common.request.resident = scene;
+    return run_command<TraceRun>(std::move(command), words, nullptr);
 }
 
 }  // namespace lightwalk

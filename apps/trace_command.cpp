@@ -51,6 +51,17 @@ std::vector<OptionRow> record_rows(TraceCommand& c) {
              "both (default aa)"}};
 }
 
+std::vector<OptionRow> server_rows(TraceCommand& c) {
+    constexpr double kDay = 86400;
+    return {{"Server", SectionTitle{}},
+            {"--serve", &c.serve,
+             "trace nothing, but hold the octree, compiled, for all rtrace that are called by the "
+             "names of `lightwalk install-names --serve`: these need not read it. Ends by itself, "
+             "also when a file of the scene changes"},
+            {"--idle SECONDS", &c.idle, "--serve ends when nobody has asked for so long",
+             With{.least = .1, .most = kDay, .expected = "seconds, .1 to 86400"}}};
+}
+
 std::vector<OptionRow> color_rows(TraceCommand& c) {
     const auto color = [&c](ColorOutput output) {
         return Action{[&c, output] { c.color = output; }};
@@ -87,7 +98,8 @@ OptionTable option_table(TraceCommand& c, const std::shared_ptr<FileSource>& fil
     const LibraryPath library = LibraryPath::from_environment(files);
     return {{c.common.command, kTrace},
             {record_rows(c), color_rows(c), tree_rows(c.tree, library),
-             render_option_rows(c.common.settings, library), common_option_rows(c.common)},
+             render_option_rows(c.common.settings, library), server_rows(c),
+             common_option_rows(c.common)},
             {"-i", "-n", "--seed"}};
 }
 

@@ -17,7 +17,9 @@ struct TraceCommand {
     std::string letters = "v";  ///< -o
     TreeSelection tree;         ///< -te -ti -tE -tI
     ColorOutput color = ColorOutput::rgb;
-    int x = 0, y = 0;  ///< -x -y
+    int x = 0, y = 0;    ///< -x -y
+    bool serve = false;  ///< --serve
+    double idle = 600;   ///< --idle [s]
 };
 
 /// The options of trace, which set the command's members; must not outlive it.

@@ -11,6 +11,8 @@ struct Ablation {
     bool leaves = true;          ///< large search trees end in quantised leaves
     bool slices = true;          ///< the search tree holds long cones in slices
     bool packets = true;         ///< coherent rays search the tree in packets
+
+    friend bool operator==(const Ablation&, const Ablation&) = default;
 };
 
 }  // namespace lightwalk

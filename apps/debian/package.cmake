@@ -31,6 +31,10 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright.in ${debian}/copyright @ONLY)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/changelog.in ${debian}/changelog @ONLY)
 execute_process(COMMAND ${GZIP_PROGRAM} -9nkf ${debian}/changelog COMMAND_ERROR_IS_FATAL ANY)
 
+# It runs thousands of times, and starts in half the time so.
+file(WRITE ${debian}/overrides "lightwalk: statically-linked-binary [usr/bin/lightwalk-served]\nlightwalk: no-manual-page [usr/bin/lightwalk-served]\n")
+install(FILES ${debian}/overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME lightwalk COMPONENT program EXCLUDE_FROM_ALL)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL "")

@@ -1,6 +1,7 @@
 // lightwalk install-names: a folder of links by the names of Radiance's programs.
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "apps/commands.h"
@@ -12,13 +13,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-OptionTable install_names_table(std::string& folder) {
-    (void)folder;
+constexpr const char* kServed = "rtrace";  ///< the name of which servers take the work
+
+struct InstallNamesCommand {
+    bool serve = false;  ///< --serve
+};
+
+OptionTable install_names_table(InstallNamesCommand& command) {
     const Action answered{[] {}};  // by main
-    return {{"install-names", kInstallNames},
-            {{{"Help", SectionTitle{}},
-              {"--help", answered, "this text"},
-              {"--version", answered, "the version of Lightwalk"}}}};
+    return {
+        {"install-names", kInstallNames},
+        {{{"--serve", &command.serve,
+           "rtrace asks the server of its octree (`lightwalk trace --serve`), and starts one at "
+           "the second run on it: for thousands of runs with a few rays each"}},
+         {{"Help", SectionTitle{}},
+          {"--help", answered, "this text"},
+          {"--version", answered, "the version of Lightwalk"}}}};
 }
 
 /// Where a link in `folder` finds the program: relative where both lie below one folder that is
@@ -46,22 +56,28 @@ void make_link(const fs::path& link, const fs::path& target) {
 }  // namespace
 
 OptionTable install_names_option_table() {
-    return owning_table(std::string(), install_names_table);
+    return owning_table(InstallNamesCommand(), install_names_table);
 }
 
 int run_install_names(const std::vector<std::string>& words, Communicator* /*ranks*/) {
-    if (words.size() != 1 || words[0].empty() || words[0][0] == '-')
-        throw UsageError("expected one folder for the links");
+    const bool serve = !words.empty() && words[0] == "--serve";
+    const std::string name = words.size() == (serve ? 2U : 1U) ? words.back() : "";
+    if (name.empty() || name[0] == '-') throw UsageError("expected one folder for the links");
     std::error_code error;
-    fs::create_directories(words[0], error);
-    if (error) throw InputError({words[0], 0}, "cannot make the folder: " + error.message());
-    const fs::path folder = fs::canonical(words[0], error);
+    fs::create_directories(name, error);
+    if (error) throw InputError({name, 0}, "cannot make the folder: " + error.message());
+    const fs::path folder = fs::canonical(name, error);
     const fs::path program = fs::canonical("/proc/self/exe", error);
     if (error) throw InputError("cannot tell where this program is: " + error.message());
+    const fs::path asking = program.parent_path() / "lightwalk-served";
+    if (serve && !fs::exists(asking, error))
+        throw InputError({asking.string(), 0}, "is missing: it is what asks a server");
     for (const NamedProgram& named : named_programs()) {
         if (program == folder / named.name)
             throw InputError({(folder / named.name).string(), 0}, "is the program itself");
-        make_link(folder / named.name, target_from(folder, program));
+        make_link(folder / named.name,
+                  target_from(folder,
+                              serve && std::string_view(named.name) == kServed ? asking : program));
     }
     std::printf("%zu names in %s: put it before Radiance's folder on the PATH\n",
                 named_programs().size(), folder.c_str());

@@ -6,6 +6,7 @@
 
 #include "apps/commands.h"
 #include "core/error.h"
+#include "core/math/function_ref.h"
 #include "parallel/comm/communicator.h"
 
 namespace lightwalk {
@@ -59,9 +60,11 @@ std::string named_version() {
     return "RADIANCE 6.1a Lightwalk " LIGHTWALK_VERSION " 2026-11-29 (6.1.0)";
 }
 
-int run_named_program(const NamedProgram& program, const std::vector<std::string>& words,
-                      Communicator* ranks) {
-    const std::string name = program.name;
+namespace {
+
+/// See run_named_program().
+int run_named(const std::string& name, const std::vector<std::string>& words, Communicator* ranks,
+              FunctionRef<int()> run) {
     const auto say = [&](const std::string& what) {
         if (ranks != nullptr && ranks->rank() != 0) return;  // all see the same
         const bool named = what.starts_with(name + ':') || what.starts_with("usage:");
@@ -72,13 +75,26 @@ int run_named_program(const NamedProgram& program, const std::vector<std::string
             std::puts(named_version().c_str());
             return kSuccessStatus;
         }
-        return program.run(name, words, ranks);
+        return run();
     } catch (const std::bad_alloc&) {
         say("out of memory");
     } catch (const std::exception& error) {
         say(printable(error.what()));
     }
     return kFailureStatus;
+}
+
+}  // namespace
+
+int run_named_program(const NamedProgram& program, const std::vector<std::string>& words,
+                      Communicator* ranks) {
+    return run_named(program.name, words, ranks,
+                     [&] { return program.run(program.name, words, ranks); });
+}
+
+int run_named_rtrace(const std::shared_ptr<const ResidentScene>& scene,
+                     const std::vector<std::string>& words) {
+    return run_named("rtrace", words, nullptr, [&] { return run_rtrace_on(scene, words); });
 }
 
 }  // namespace lightwalk

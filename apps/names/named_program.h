@@ -1,6 +1,7 @@
 #pragma once
 // The program by the names of Radiance's programs: "lightwalk install-names" makes links to it, and
 // it acts by the name that it is called by.
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 namespace lightwalk {
 
 class Communicator;
+class ResidentScene;
 
 struct NamedProgram {
     const char* name;
@@ -27,6 +29,9 @@ struct NamedProgram {
 /// status: 1 for every mistake, as Radiance's programs do.
 int run_named_program(const NamedProgram& program, const std::vector<std::string>& words,
                       Communicator* ranks);
+/// The same of rtrace, with a scene that is there already (run_rtrace_on()).
+int run_named_rtrace(const std::shared_ptr<const ResidentScene>& scene,
+                     const std::vector<std::string>& words);
 
 // What the programs do; see NamedProgram::run.
 int run_generator(const std::string& name, const std::vector<std::string>& words,

@@ -37,7 +37,7 @@ set(package lightwalk)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/lightwalk_program.py DESTINATION . COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/lightwalk/ DESTINATION ${package} COMPONENT python EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
-install(TARGETS lightwalk lightwalk_python lightwalk_openimageio lightwalk_mpi 
+install(TARGETS lightwalk lightwalk_served lightwalk_python lightwalk_openimageio lightwalk_mpi
   RUNTIME DESTINATION ${package}/bin COMPONENT python EXCLUDE_FROM_ALL LIBRARY DESTINATION ${package}/bin COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/library/ DESTINATION ${package}/share/lightwalk/lib COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/scenes/ DESTINATION ${package}/share/lightwalk/scenes COMPONENT python

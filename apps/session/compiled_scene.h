@@ -20,6 +20,8 @@
 
 namespace lightwalk {
 
+class LightMemo;
+
 /// What it took to have a scene: time, and the most memory that the process held until then.
 struct SceneCost {
     double read_seconds = 0, build_seconds = 0;
@@ -93,6 +95,9 @@ class CompiledScene {
     [[nodiscard]] int threads() const { return threads_; }
     [[nodiscard]] const SceneCost& cost() const { return cost_; }
     [[nodiscard]] WarningSink& warnings() const { return warnings_; }
+    /// What is known of its light sources from before, and where it is kept; null: nowhere.
+    [[nodiscard]] LightMemo* light_memo() const { return light_memo_.get(); }
+    void set_light_memo(std::shared_ptr<LightMemo> memo) { light_memo_ = std::move(memo); }
 
   private:
     void read(const SceneSource& source);
@@ -119,6 +124,7 @@ class CompiledScene {
     SurfaceKeys keys_;            ///< of its surfaces
     bool sources_moved_ = false;  ///< model_ has its sources elsewhere than the scene it shares
     std::shared_ptr<const Scene> scene_;
+    std::shared_ptr<LightMemo> light_memo_;
     SceneCost cost_;
 };
 

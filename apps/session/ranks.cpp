@@ -9,6 +9,7 @@
 #include "apps/session/local_backend.h"
 #include "apps/session/rank_backend.h"
 #include "apps/session/rank_scene.h"
+#include "apps/session/resident_scene.h"
 #include "io/files/module.h"
 #include "parallel/comm/mpi_module.h"
 
@@ -115,7 +116,9 @@ Renderer Ranks::open(const RendererRequest& wanted) {
 }
 
 Renderer open_renderer(const RendererRequest& request) {
-    const std::shared_ptr<CompiledScene> scene = read_own_scene(request);
+    std::shared_ptr<const CompiledScene> scene =
+        request.resident ? request.resident->answer(request) : nullptr;
+    if (!scene) scene = read_own_scene(request);
     RendererOptions options = request.options;
     if (request.settle) request.settle(scene->scene(), options);
     return Renderer(std::make_unique<LocalBackend>(scene, options));

@@ -68,7 +68,7 @@ std::unique_ptr<const Tracer> RenderBackend::make_direct(const SceneSession& ses
     if (!options_.steered || direct.ambient_bounces == 0) return nullptr;
     direct.ambient_bounces = 0;
     return std::make_unique<const Tracer>(session.scene(), direct, warnings, SerialTaskRunner(),
-                                          &session.tracer());
+                                          &session.tracer().lights().measures());
 }
 
 std::shared_ptr<const LightGroups> RenderBackend::find_groups(const SceneSession& session) const {

@@ -1,7 +1,10 @@
 #include "apps/session/scene_session.h"
 
+#include <atomic>
+#include <optional>
 #include <utility>
 
+#include "apps/session/light_memo.h"
 #include "apps/session/stopwatch.h"
 #include "core/light/light_sources.h"
 #include "parallel/executor.h"
@@ -13,6 +16,33 @@ namespace {
 /// Of records of coefficients: what a sensor sees of the walls is the mean of hundreds of them, so
 /// that with fewer samples each there is no more noise, but less to trace.
 constexpr double kEffort = 0.25;
+
+/// Notes whether there was one.
+class NotedWarnings final : public WarningSink {
+  public:
+    explicit NotedWarnings(WarningSink& sink) : sink_(sink) {}
+    void warn(const std::string& message) override {
+        any_ = true;
+        sink_.warn(message);
+    }
+    [[nodiscard]] bool any() const { return any_; }
+
+  private:
+    WarningSink& sink_;
+    std::atomic<bool> any_ = false;
+};
+
+std::unique_ptr<Tracer> make_tracer(const CompiledScene& compiled, const RenderOptions& light,
+                                    WarningSink& warnings, const TaskRunner& task_runner) {
+    LightMemo* const memo = compiled.light_memo();
+    const std::optional<LightMeasures> known = memo ? memo->find(light) : std::nullopt;
+    NotedWarnings noted(warnings);
+    auto tracer = std::make_unique<Tracer>(compiled.scene(), light, noted, task_runner,
+                                           known ? &*known : nullptr);
+    // What there is to warn of is found anew each time.
+    if (memo && !known && !noted.any()) memo->keep(light, tracer->lights().measures());
+    return tracer;
+}
 
 }  // namespace
 
@@ -28,8 +58,7 @@ SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor =
         make_executor(kDefaultExecutor, compiled_->threads());
-    auto tracer = std::make_unique<Tracer>(compiled_->scene(), light, warnings,
-                                           ExecutorTaskRunner(*executor));
+    auto tracer = make_tracer(*compiled_, light, warnings, ExecutorTaskRunner(*executor));
     if (keeps_coefficients) {
         coefficients = std::make_unique<CoefficientCache>(limits_of(light), kEffort);
         tracer->use_coefficients(coefficients.get());

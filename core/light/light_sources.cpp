@@ -35,25 +35,28 @@ void LightSources::index_sources() {
 }
 
 void LightSources::finalize(const LightTransport& tracer, WarningSink& warnings,
-                            const TaskRunner& task_runner, const LightSources* alike) {
+                            const TaskRunner& task_runner, const LightMeasures* known) {
     index_sources();
     find_scattered(warnings);
     const bool many = options_.sample_lights > 0 &&
                       sampled_.size() - virtual_count_ >
                           kManyLights * static_cast<std::size_t>(options_.sample_lights);
     const bool chosen = many || (options_.ambient_bounces > 0 && options_.ambient_lights > 0);
-    if (options_.shadow_threshold > 0 && alike != nullptr && !chosen) {
-        assert(alike->sources_.size() == sources_.size());
-        for (std::size_t i = 0; i < sources_.size(); ++i)
-            sources_[i].hit_rate = alike->sources_[i].hit_rate;
-    } else if (options_.shadow_threshold > 0 || chosen) {
-        const std::vector<float> rates = measure_hit_rates(*this, tracer, warnings, task_runner);
-        for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
+    if (known != nullptr) measures_ = *known;
+    const auto are_of_all = [&](const std::vector<float>& numbers) {
+        assert(numbers.empty() || numbers.size() == sources_.size());
+        return numbers.size() == sources_.size();
+    };
+    if (options_.shadow_threshold > 0 || chosen) {
+        if (!are_of_all(measures_.hit_rates))
+            measures_.hit_rates = measure_hit_rates(*this, tracer, warnings, task_runner);
+        for (std::size_t i = 0; i < measures_.hit_rates.size(); ++i)
+            sources_[i].hit_rate = measures_.hit_rates[i];
     }
     if (!chosen) return;
-    const std::vector<float> emissions = mean_emissions(*this, tracer);
-    for (std::size_t i = 0; i < emissions.size(); ++i)
-        sources_[i].worth = emissions[i] * visible_share(sources_[i]);
+    if (!are_of_all(measures_.emissions)) measures_.emissions = mean_emissions(*this, tracer);
+    for (std::size_t i = 0; i < measures_.emissions.size(); ++i)
+        sources_[i].worth = measures_.emissions[i] * visible_share(sources_[i]);
     boxes_.set_worths(sources_, sampled_);
     many_for_samples_ = many;
 }

@@ -20,6 +20,13 @@ namespace lightwalk {
 /// fewer the noise costs more than the shadow rays that are spared.
 inline constexpr std::size_t kManyLights = 2;
 
+/// What rays are traced for to know of light sources; each list has one number a source, or none:
+/// it was not measured.
+struct LightMeasures {
+    std::vector<float> hit_rates;  ///< LightSource::hit_rate
+    std::vector<float> emissions;  ///< brightness of the radiance, about [W/(m² sr)]
+};
+
 class LightSources {
   public:
     /// The real sources. Throws InputError (see collect_sources).
@@ -55,10 +62,12 @@ class LightSources {
     }
     /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
     /// Called once by LightTransport's constructor, with that tracer, before any rendering.
-    /// @param alike  the same sources, of a tracer with the same options but for those of indirect
-    ///               light: their rates are taken, which would come out the same. Null: none
+    /// @param known  what was measured of the same sources, for a tracer with the same options but
+    ///               for those of indirect light: it would come out the same. Null: nothing is
     void finalize(const LightTransport& tracer, WarningSink& warnings,
-                  const TaskRunner& task_runner, const LightSources* alike = nullptr);
+                  const TaskRunner& task_runner, const LightMeasures* known = nullptr);
+    /// What finalize() measured, or knew.
+    [[nodiscard]] const LightMeasures& measures() const { return measures_; }
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;
@@ -99,6 +108,7 @@ class LightSources {
     SourceBoxes boxes_;
     std::size_t virtual_count_ = 0;
     bool many_for_samples_ = false;
+    LightMeasures measures_;
     std::vector<std::int32_t> distant_;                        ///< real sources at infinity
     std::unordered_map<std::int32_t, ScatterList> scattered_;  ///< by the mist's modifier
 };

@@ -93,7 +93,7 @@ bool has_few_candidates(const TraceContext& context) {
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
-               const TaskRunner& task_runner, const Tracer* alike)
+               const TaskRunner& task_runner, const LightMeasures* known)
     : LightTransport(scene, options),
       lights_(std::make_unique<LightSources>(scene, options, warnings)) {
     if (options.reflection_limit <= 0 && options.weight_limit <= 0) {
@@ -101,7 +101,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
     }
     ambient_ = std::make_unique<AmbientCalculation>(*this);
     VirtualSourceBuilder(*lights_, *this, warnings).build();
-    lights_->finalize(*this, warnings, task_runner, alike ? &alike->lights() : nullptr);
+    lights_->finalize(*this, warnings, task_runner, known);
 }
 Tracer::~Tracer() = default;
 

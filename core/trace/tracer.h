@@ -12,6 +12,8 @@ class AmbientCache;
 class AmbientCalculation;
 class CoefficientCache;
 
+struct LightMeasures;
+
 /// Radiance along rays in one scene. Holds the light sources, virtual ones included, and the
 /// ambient calculation.
 class Tracer final : public LightTransport {
@@ -19,11 +21,11 @@ class Tracer final : public LightTransport {
     /// Prepares the light sources and their frozen visibility statistics, by a bounded number of
     /// rays. Throws InputError for illegal light sources and options that exclude each other.
     /// @param scene  must outlive this
-    /// @param alike  of the same scene, with the same options but for those of indirect light: its
-    ///               sources' statistics are taken, which would come out the same. Null: there is
-    ///               none
+    /// @param known  lights().measures() of one of the same scene, with the same options but for
+    ///               those of indirect light: it would come out the same. Null: nothing is known
     Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
-           const TaskRunner& task_runner = SerialTaskRunner(), const Tracer* alike = nullptr);
+           const TaskRunner& task_runner = SerialTaskRunner(),
+           const LightMeasures* known = nullptr);
     ~Tracer() override;
 
     [[nodiscard]] const LightSources& lights() const override { return *lights_; }

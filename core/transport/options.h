@@ -17,7 +17,8 @@ struct AmbientSelection {
     friend bool operator==(const AmbientSelection&, const AmbientSelection&) = default;
 };
 
-struct RenderOptions {
+/// All of them that are numbers: plain bytes, which processes can share.
+struct RenderNumbers {
     // direct
     double shadow_threshold = 0.05;       ///< -dt
     double shadow_certainty = 0.5;        ///< -dc
@@ -38,20 +39,24 @@ struct RenderOptions {
     double eccentricity = 0;  ///< -mg
     double scatter_step = 0;  ///< -ms [m]
     // ambient
-    Rgb ambient_value;                  ///< -av [W/(m² sr)]
-    int ambient_weight = 0;             ///< -aw
-    int ambient_bounces = 0;            ///< -ab
-    double ambient_accuracy = 0.2;      ///< -aa
-    int ambient_resolution = 64;        ///< -ar
-    int ambient_divisions = 512;        ///< -ad
-    int ambient_super_samples = 128;    ///< -as
-    int ambient_lights = 2;             ///< --ambient-lights; 0: all
-    int sample_lights = 0;              ///< of rays that are samples of a pixel; 0: all
-    AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
+    Rgb ambient_value;                ///< -av [W/(m² sr)]
+    int ambient_weight = 0;           ///< -aw
+    int ambient_bounces = 0;          ///< -ab
+    double ambient_accuracy = 0.2;    ///< -aa
+    int ambient_resolution = 64;      ///< -ar
+    int ambient_divisions = 512;      ///< -ad
+    int ambient_super_samples = 128;  ///< -as
+    int ambient_lights = 2;           ///< --ambient-lights; 0: all
+    int sample_lights = 0;            ///< of rays that are samples of a pixel; 0: all
     // irradiance
     bool irradiance = false;  ///< -i
     std::uint64_t seed = 0;   ///< --seed
     Ablation ablation;        ///< changes the speed only
+    friend bool operator==(const RenderNumbers&, const RenderNumbers&) = default;
+};
+
+struct RenderOptions : RenderNumbers {
+    AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
 };
 
 }  // namespace lightwalk

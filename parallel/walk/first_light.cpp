@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/light/light_sources.h"
+
 namespace lightwalk {
 namespace {
 
@@ -38,7 +40,8 @@ bool FirstLight::is_rough(const RenderOptions& options) {
 }
 
 FirstLight::Rough::Rough(const FirstLight& light, const RenderOptions& options)
-    : tracer(light.indirect_.scene(), options, silence, SerialTaskRunner(), &light.indirect_),
+    : tracer(light.indirect_.scene(), options, silence, SerialTaskRunner(),
+             &light.indirect_.lights().measures()),
       cache(limits_of(light.indirect_.scene(), options)),
       draft(tracer, light.direct_, light.groups_, light.workers_) {
     tracer.use_ambient_cache(&cache);

@@ -9,7 +9,7 @@ SKIPPED = 77
 SCENE = "void glow even 0 0 4 1 1 1 0\neven source sky 0 0 4 0 0 1 360\n"
 # Package: files that it must hold (* is any folders, too), and others' names in what it depends on.
 PACKAGES = {
-    "lightwalk": (["usr/bin/lightwalk", "usr/share/man/man1/lightwalk.1.gz", "usr/share/man/man1/lightwalk-render.1.gz"], ["lightwalk-data", "liblightwalk0.1", "libtbb12"]),
+    "lightwalk": (["usr/bin/lightwalk", "usr/bin/lightwalk-served", "usr/share/man/man1/lightwalk.1.gz", "usr/share/man/man1/lightwalk-render.1.gz"], ["lightwalk-data", "liblightwalk0.1", "libtbb12"]),
     "lightwalk-data": (["usr/share/lightwalk/lib/*.cal", "usr/share/lightwalk/scenes/lodge/lodge.rad"], []),
     "liblightwalk0.1": (["usr/lib/*liblightwalk.so.0.1", "usr/lib/*lightwalk/liblightwalk_openimageio.so"], ["libc6", "libembree3-3", "libopenimageio"]),
     "lightwalk-mpi": (["usr/lib/*lightwalk/liblightwalk_mpi.so"], ["libopenmpi3", "openmpi-bin"]),

@@ -237,7 +237,8 @@ TEST_CASE(
     TestScene scene(text, options);
     options.ambient_bounces = 0;
     const Tracer own(scene.scene, options, scene.warnings);
-    const Tracer taken(scene.scene, options, scene.warnings, SerialTaskRunner(), &scene.tracer);
+    const Tracer taken(scene.scene, options, scene.warnings, SerialTaskRunner(),
+                       &scene.tracer.lights().measures());
     REQUIRE(own.lights().all().size() == 40);
     std::size_t between = 0;
     for (std::int32_t i = 0; i < 40; ++i) {
