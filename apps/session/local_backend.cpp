@@ -17,7 +17,7 @@ std::string joined(std::vector<std::string> texts) {
     for (const std::string& text : texts) size += text.size();
     std::string all;
     all.reserve(size);
-    prefer_large_pages(all.data());
+    prefer_large_pages(all);
     for (std::string& text : texts) all += std::exchange(text, {});
     return all;
 }

@@ -7,10 +7,11 @@
 
 namespace lightwalk {
 
-void prefer_large_pages(void* block) noexcept {
+void prefer_large_pages(std::string& text) noexcept {
     constexpr std::uintptr_t kPage = 4096;
+    if (text.capacity() < kWorthLargePages) return;  // a short one is no block of malloc's
+    char* const block = text.data();
     const std::size_t size = malloc_usable_size(block);
-    if (size < kWorthLargePages) return;
     // All of the mapping that malloc made for it, its own words before the block among it: a
     // mapping of two kinds cannot be moved as one.
     const auto begin = reinterpret_cast<std::uintptr_t>(block);

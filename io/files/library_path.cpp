@@ -30,7 +30,7 @@ std::string read_all(std::FILE* file, const std::string& name, std::size_t expec
                      std::size_t limit) {
     std::string bytes;
     if (expected <= limit) bytes.reserve(expected);
-    if (bytes.capacity() >= kWorthLargePages) prefer_large_pages(bytes.data());
+    prefer_large_pages(bytes);
     std::vector<char> chunk(std::size_t{64} << 10);
     std::size_t got = 0;
     while ((got = std::fread(chunk.data(), 1, chunk.size(), file)) > 0) {

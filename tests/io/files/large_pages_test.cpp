@@ -46,13 +46,13 @@ TEST_CASE("a long text asks for large pages, all of it") {
     }
     std::string text;
     text.reserve(std::size_t{40} << 20);  // more than malloc ever takes from its heap
-    prefer_large_pages(text.data());
+    prefer_large_pages(text);
     CHECK(has_asked(text.data(), text.capacity()));
 }
 
 TEST_CASE("what is in a text stays when it asks for large pages") {
     std::string text(std::size_t{5} << 20, 'a');
     text.back() = 'z';
-    prefer_large_pages(text.data());
+    prefer_large_pages(text);
     CHECK(text.find_first_not_of('a') == text.size() - 1);
 }
