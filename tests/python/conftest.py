@@ -1,5 +1,6 @@
 """Tests of the Python package as it is installed: run_tests.py makes it ready."""
 
+import os
 import pathlib
 import subprocess
 import sys
@@ -7,6 +8,8 @@ import sys
 import pytest
 
 import lightwalk
+
+os.environ.pop("LD_PRELOAD", None)  # of a sanitizer, for this process: a shell crashes with it
 
 PROGRAM = pathlib.Path(lightwalk.__file__).parent / "bin" / "lightwalk"
 

@@ -78,7 +78,8 @@ def main(first, *words):
     environment = dict(os.environ)
     if "LIGHTWALK_PRELOAD" in environment:  # of a sanitizer, which finds what the interpreter keeps to its end
         environment["LD_PRELOAD"] = environment["LIGHTWALK_PRELOAD"]
-        environment["ASAN_OPTIONS"] = environment.get("ASAN_OPTIONS", "") + ":detect_leaks=0"
+        for name, options in (("ASAN_OPTIONS", ":detect_leaks=0:allocator_may_return_null=1"), ("TSAN_OPTIONS", " allocator_may_return_null=1")):
+            environment[name] = environment.get(name, "") + options  # Python is told of what is too large, too
     done = subprocess.run([pathlib.Path(first) / "environment/bin/python", "-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", *tests],
                           cwd=first, env=environment)
     sys.exit(done.returncode)
