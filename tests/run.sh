@@ -17,7 +17,7 @@ if [ -n "$browser" ]; then
     command -v npm >/dev/null || browser="$browser npm"
 fi
 # shellcheck disable=SC2086  # a list of words
-sh apps/install_packages.sh qemu-user pybind11-dev python3-dev python3-pip python3-pytest dpkg-dev file $browser
+sh apps/install_packages.sh qemu-user pybind11-dev python3-dev python3-pip python3-pytest dpkg-dev file strace $browser
 if [ -n "$browser" ] && [ ! -d build/npm/node_modules/jpeg-js ]; then
     mkdir -p build/npm
     npm install --silent --no-audit --no-fund --prefix build/npm playwright-core@1 axe-core@4 ws@8 jpeg-js@0.4
