@@ -57,8 +57,8 @@ struct RendererRequest {
     std::function<void()> when_read;    ///< called before what was read is compiled; none: nobody
     /// Sets options that depend on the compiled scene, in every process alike; none: nobody.
     std::function<void(const Scene& scene, RendererOptions& options)> settle = nullptr;
-    /// For this project's own programs: a scene that is there already, which a process that is alone
-    /// takes where it is the one that is asked for; null: there is none.
+    /// For this project's own programs: a scene that is there already, which a process that is
+    /// alone takes where it is the one that is asked for; null: there is none.
     std::shared_ptr<const ResidentScene> resident = nullptr;
 };
 
