@@ -35,7 +35,9 @@ def command(*words, input=None):
 
 def in_new_process(code, *words, timeout=600):
     """What a script prints."""
-    done = subprocess.run([sys.executable, "-c", code, *map(str, words)], capture_output=True, text=True, timeout=timeout, check=False)
+    preload = {"LD_PRELOAD": os.environ["LIGHTWALK_PRELOAD"]} if "LIGHTWALK_PRELOAD" in os.environ else {}
+    done = subprocess.run([sys.executable, "-c", code, *map(str, words)], capture_output=True, text=True, timeout=timeout, check=False,
+                          env={**os.environ, **preload})
     assert done.returncode == 0, done.stderr
     return done.stdout
 
