@@ -70,6 +70,7 @@ GlareReport report_of(const EvalglareCommand& c, const FieldPicture& picture) {
     params.threshold = c.threshold;
     params.merge_angle = c.search_angle / 2;
     params.peak = c.peak;
+    params.whole_pixels = true;
     if (c.threshold < kLeastLuminance) {
         const double mean = analyse_glare(picture, c.view, params).average_luminance;
         if (mean > 0) params.threshold = c.threshold * mean;
@@ -120,8 +121,8 @@ int run_evalglare(const std::string& name, const std::vector<std::string>& line,
                      "Notice: outside of what people were asked about (DGP 0.2 to 0.8, at "
                      "least 380 lux): dgp is an extrapolation\n");
     const GlareIndices indices = glare_indices(report, Camera(command.view).forward());
-    std::printf("dgp,dgi,ugr,vcp,cgi,Lveil_cie: %f %f %f %f %f %f  \n", report.dgp, indices.dgi,
-                indices.ugr, indices.vcp, indices.cgi, indices.veiling_luminance);
+    std::printf("dgp,dgi,ugr,vcp,cgi,Lveil: %f %f %f %f %f %f  \n", report.dgp, indices.dgi,
+                indices.ugr, indices.vcp, indices.cgi, indices.evalglare_veil);
     return kSuccessStatus;
 }
 

@@ -59,16 +59,19 @@ struct SourceView {
 
 /// The mean place of the light of some pixels, as a direction: the weighted mean of their places in
 /// the picture, as in the reference evaluation, rather than of their directions.
-Vec3 mean_direction(const SourceView& of, const SourcePixels& pixels) {
+Vec3 mean_direction(const SourceView& of, const SourcePixels& pixels, bool whole_pixels) {
     double x = 0, y = 0, sum = 0;
     for (const std::uint32_t i : pixels) {
         const FieldPixel& pixel = of.field.pixels[i];
         const double weight = pixel.luminance * pixel.solid_angle;
-        x += weight * (pixel.place.x + 0.5);
-        y += weight * (pixel.place.y + 0.5);
+        x += weight * pixel.place.x;
+        y += weight * pixel.place.y;
         sum += weight;
     }
-    return field_direction(of.camera, x / sum / of.width, y / sum / of.height);
+    const auto centre = [&](double place) {
+        return (whole_pixels ? std::floor(place) : place) + 0.5;
+    };
+    return field_direction(of.camera, centre(x / sum) / of.width, centre(y / sum) / of.height);
 }
 
 GlareSource source_of(const SourceView& of, const SourcePixels& pixels, const GlareParams& params,
@@ -81,10 +84,12 @@ GlareSource source_of(const SourceView& of, const SourcePixels& pixels, const Gl
         const FieldPixel& pixel = of.field.pixels[i];
         source.luminance += pixel.luminance * pixel.solid_angle;
         source.solid_angle += pixel.solid_angle;
+        source.illuminance +=
+            pixel.luminance * pixel.solid_angle * dot(pixel.direction, of.camera.forward());
         places.push_back(pixel.place);
     }
     source.luminance /= source.solid_angle;
-    source.direction = mean_direction(of, pixels);
+    source.direction = mean_direction(of, pixels, params.whole_pixels);
     source.position_index = position_index(source.direction, of.camera);
     source.glare = source.luminance * source.luminance * source.solid_angle /
                    (source.position_index * source.position_index);

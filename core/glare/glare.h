@@ -15,11 +15,15 @@ struct GlareParams {
     double merge_angle = 0.1;  ///< largest angle between neighbouring pixels of one source [rad]
     double peak = 50000;       ///< brighter pixels form sources of their own [cd/m²]
     std::size_t outline_points = 64;  ///< at most, at least 4
+    /// A source is where the pixel's centre is that its mean image position falls on, as in the
+    /// reference evaluation, rather than at that position.
+    bool whole_pixels = false;
 };
 
 struct GlareSource {
     double luminance = 0;    ///< mean over its solid angle [cd/m²]
     double solid_angle = 0;  ///< [sr]
+    double illuminance = 0;  ///< at the eye, of all its pixels as they lie [lx]
     Vec3 direction;  ///< unit: to the mean image position of its pixels, weighted by their light
     double position_index = 1;
     double glare = 0;  ///< L² ω / P² [cd²/m⁴ sr]: its part of the sum in DGP

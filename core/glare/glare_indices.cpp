@@ -12,19 +12,20 @@ struct SourceSums {
     double glare = 0;      ///< of L² ω / P²
     double sensation = 0;  ///< of M (VCP), times the mean luminance to the power of 0.44
     double veil = 0;       ///< veiling luminance [cd/m²]
+    double evalglare_veil = 0;
 };
 
 SourceSums sums_of(const GlareReport& report, const Vec3& forward) {
     SourceSums sums;
     for (const GlareSource& s : report.sources) {
         const double cosine = std::clamp(dot(s.direction, forward), -1., 1.);
-        const double illuminance = s.luminance * s.solid_angle * std::max(cosine, 0.);
         const double degrees = std::max(std::acos(cosine) * 180 / kPi, 0.1);
         const double q = 20.4 * s.solid_angle + 1.52 * std::pow(s.solid_angle, 0.2) - 0.075;
-        sums.direct += illuminance;
+        sums.direct += s.illuminance;
         sums.glare += s.glare;
         sums.sensation += 0.5 * s.luminance * q / s.position_index;
-        sums.veil += 10 * illuminance / (degrees * degrees);
+        sums.veil += 10 * s.illuminance / (degrees * degrees);
+        sums.evalglare_veil += 5 * s.luminance * s.solid_angle * std::max(cosine, 0.) / degrees;
     }
     return sums;
 }
@@ -55,6 +56,7 @@ GlareIndices glare_indices(const GlareReport& report, const Vec3& forward) {
     const SourceSums sums = sums_of(report, forward);
     const double background = (ev - sums.direct) / kPi;
     indices.veiling_luminance = sums.veil;
+    indices.evalglare_veil = sums.evalglare_veil;
     if (!(background > 0) || !(report.average_luminance > 0)) return indices;
     indices.dgi = daylight_glare_index(report, background);
     indices.ugr = 8 * std::log10(0.25 / background * sums.glare);

@@ -12,6 +12,9 @@ struct GlareIndices {
     /// Veiling luminance of the sources: 10 E / theta², E at the eye, theta from the line of sight
     /// in degrees [cd/m²].
     double veiling_luminance = 0;
+    /// What evalglare 3.06 prints as Lveil: 5 E / theta, E of a source's mean luminance at its
+    /// place. Its output tells so, to all digits; no publication is known to have this formula.
+    double evalglare_veil = 0;
 };
 
 /// @param report   of a picture

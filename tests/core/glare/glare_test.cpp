@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/glare/dgp.h"
+#include "core/glare/glare_indices.h"
 #include "tests/core/glare/fisheye_picture.h"
 #include "tests/tolerance.h"
 
@@ -201,6 +202,26 @@ TEST_CASE("glare: a source is where it is, as bright and as large as it is") {
     for (const Vec3& p : source.outline)
         CHECK(std::abs(degrees_between(p, direction_of(disc)) - 5) < 180. / kSize);
     CHECK(report.dgp == daylight_glare_probability(report.vertical_illuminance, source.glare));
+}
+
+TEST_CASE("glare: a wide source lights the eye by all its pixels, not by its middle") {
+    // Half the field, L above the line of sight: π L / 2 of illuminance, at 180 / π degrees a mean
+    // direction that would tell another. What is below is the background.
+    const View view = fisheye_view('a');
+    std::vector<Rgb> picture = disc_picture(kSize, view, 300, {});
+    for (std::size_t i = 0; i < picture.size() / 2; ++i)
+        if (picture[i].g > 0) picture[i] = test::stored_grey(3000);
+    const GlareReport report = analyse_glare({kSize, kSize, picture}, view);
+    REQUIRE(report.sources.size() == 1);
+    CHECK(report.sources[0].illuminance == within(1e-2, kPi * 3000 / 2));
+    const GlareIndices indices = glare_indices(report, Camera(view).forward());
+    const double background = 300. / 2;  // half of the field
+    CHECK(indices.ugr == within(2e-3, 8 * std::log10(0.25 / background * report.sources[0].glare)));
+    CHECK(indices.vcp < 50);
+    // Its veil, of a place 10 degrees off: 10 E / theta².
+    const GlareReport disc = report_of('a', 100, {{10, 0, 2, 10000}});
+    const double E = disc.sources[0].illuminance;
+    CHECK(glare_indices(disc, Camera(view).forward()).veiling_luminance == within(1e-2, E / 10));
 }
 
 TEST_CASE("glare: the angular and the hemispherical picture of a room agree") {

@@ -162,9 +162,8 @@ TEST_CASE("panes: a transmissivity for each transmittance at normal incidence") 
 TEST_CASE("mirrors: a lamp and its image send by Lambert's formula what each shows") {
     const std::vector<Vec3> panel = rectangle({-.3, -.5, 3}, {0, 1, 0}, {.6, 0, 0});
     const auto image = rectangle({4.3, -.5, 3}, {0, 1, 0}, {-.6, 0, 0});  // in the plane x = 2
-    const std::string mirror =
-        "void mirror silver 0 0 3 .8 .8 .8\n" +
-        polygon("silver", "m", rectangle({2, -9, 0}, {0, 0, 9}, {0, 18, 0}));
+    const std::string mirror = "void mirror silver 0 0 3 .8 .8 .8\n" +
+                               polygon("silver", "m", rectangle({2, -9, 0}, {0, 0, 9}, {0, 18, 0}));
     RenderOptions options = divided(.1);
     options.redirections = 1;
     TestScene lamps(lamp_panel(panel) + mirror, options);
@@ -173,8 +172,8 @@ TEST_CASE("mirrors: a lamp and its image send by Lambert's formula what each sho
                    indirect(1, 160000));
     for (const double x : {-1., 0., 1.}) {
         const Vec3 point{x, .1, 0};
-        const double E = kPi * (lambert_factor(point, kUp, panel) +
-                                .8 * lambert_factor(point, kUp, image));
+        const double E =
+            kPi * (lambert_factor(point, kUp, panel) + .8 * lambert_factor(point, kUp, image));
         CHECK(measured(lamps, point, kUp) == within(kCase, E));
         CHECK(measured(glow, point, kUp) == within(kCase, E));
     }

@@ -44,7 +44,8 @@ TEST_CASE("form factors: a sensor sees Lambert's factor of polygons of any shape
         {{1, 0, 1}, {.5, .8, 1}, {-.5, .8, 1}, {-1, 0, 1}, {-.5, -.8, 1}, {.5, -.8, 1}},
         rectangle({1, -1, -2}, {0, 2, 0}, {.3, 0, 4})};
     for (const std::vector<Vec3>& shape : shapes) {
-        TestScene scene(kGlowing + polygon("lit", "p", facing(shape, {})), indirect(1, kFactorRays));
+        TestScene scene(kGlowing + polygon("lit", "p", facing(shape, {})),
+                        indirect(1, kFactorRays));
         for (const Vec3& normal : {Vec3{0, 0, 1}, normalize(Vec3{.6, .1, .7})}) {
             const Vec3 point{.02, -.03, 0};
             const double factor = lambert_factor(point, normal, shape);
@@ -88,8 +89,8 @@ TEST_CASE("form factors: mean over a surface is the factor between surfaces") {
     };
     const RenderOptions options = indirect(1, 4096);
     const Vec3 up{0, 0, 1};
-    TestScene parallel(
-        kGlowing + polygon("lit", "p", rectangle({0, 0, 1}, {0, 1.5, 0}, {2, 0, 0})), options);
+    TestScene parallel(kGlowing + polygon("lit", "p", rectangle({0, 0, 1}, {0, 1.5, 0}, {2, 0, 0})),
+                       options);
     CHECK(mean(parallel, {}, {2, 0, 0}, {0, 1.5, 0}, up) ==
           within(kCase, factor_between_parallel(2, 1.5, 1)));
     TestScene upright(kGlowing + polygon("lit", "p", rectangle({}, {0, 2, 0}, {0, 0, 1.2})),

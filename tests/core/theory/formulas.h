@@ -78,10 +78,9 @@ inline double factor_between_parallel(double a, double b, double c) {
 /// Source: Howell, C-14.
 inline double factor_between_upright(double l, double w, double h) {
     const double W = w / l, H = h / l, w2 = W * W, h2 = H * H, both = h2 + w2;
-    const double logs =
-        std::log((1 + w2) * (1 + h2) / (1 + both)) +
-        w2 * std::log(w2 * (1 + both) / ((1 + w2) * both)) +
-        h2 * std::log(h2 * (1 + both) / ((1 + h2) * both));
+    const double logs = std::log((1 + w2) * (1 + h2) / (1 + both)) +
+                        w2 * std::log(w2 * (1 + both) / ((1 + w2) * both)) +
+                        h2 * std::log(h2 * (1 + both) / ((1 + h2) * both));
     return (W * std::atan(1 / W) + H * std::atan(1 / H) -
             std::sqrt(both) * std::atan(1 / std::sqrt(both)) + 0.25 * logs) /
            (kPi * W);
@@ -147,7 +146,9 @@ inline double pane_transmittance_of(double cosine, double index, double internal
     const double tau = std::pow(internal, 1 / inside);
     const double s = std::pow((cosine - index * inside) / (cosine + index * inside), 2);
     const double p = std::pow((inside - index * cosine) / (inside + index * cosine), 2);
-    const auto through = [&](double r) { return (1 - r) * (1 - r) * tau / (1 - r * r * tau * tau); };
+    const auto through = [&](double r) {
+        return (1 - r) * (1 - r) * tau / (1 - r * r * tau * tau);
+    };
     return 0.5 * (through(s) + through(p));
 }
 

@@ -58,7 +58,8 @@ TEST_CASE("furnace at grazing angles: what conserves energy shows 1") {
           "void mirror m 0 0 3 1 1 1\n",
           "void BRTDfunc m 10 .5 .5 .5 .5 .5 .5 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0\n",
           "void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 .6 .6 .6 .6 .6 .6 .4 .4 .4\n",
-          "void prism1 m 5 1 0 0 -1 . 0 0\n", "void prism2 m 9 half 0 0 -1 half 0 .1 -1 bend.cal 0 "
+          "void prism1 m 5 1 0 0 -1 . 0 0\n",
+          "void prism2 m 9 half 0 0 -1 half 0 .1 -1 bend.cal 0 "
           "0\n"}) {
         const TestScene scene(kFurnace + material + sheet("s"), sampling(), functions());
         for (const double degrees : kAngles) {
@@ -84,7 +85,8 @@ TEST_CASE("furnace at grazing angles: no rough lobe shows more than 1") {
           "void metal2 m 4 1 0 0 . 0 6 1 1 1 1 .3 .05\n",
           "void trans2 m 4 1 0 0 . 0 8 1 1 1 .2 .1 .2 .5 .5\n",
           "void ashik2 m 4 1 0 0 . 0 8 0 0 0 .5 .5 .5 20 80\n",
-          "void WGMDfunc m 13 void .3 .1 .1 void .3 .1 .1 void 1 0 0 . 0 9 .2 .2 .2 .2 .2 .2 .2 .2 .2\n",
+          "void WGMDfunc m 13 void .3 .1 .1 void .3 .1 .1 void 1 0 0 . 0 9 .2 .2 .2 .2 .2 .2 .2 .2 "
+          ".2\n",
           "void plasfunc m 2 lobe lobe.cal 0 4 1 1 1 .5\n",
           "void metfunc m 2 lobe lobe.cal 0 4 1 1 1 .5\n",
           "void transfunc m 2 lobe lobe.cal 0 6 1 1 1 .5 .5 .5\n"}) {
@@ -132,23 +134,24 @@ TEST_CASE("furnace of suns: reflected by what sources bring, no surface shows mo
     const double width = 2 * std::acos(1 - 1. / kSuns) * 180 / kPi;
     for (int i = 0; i < kSuns; ++i) {
         const double z = (i + .5) / kSuns, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
-        suns += "sun source s" + std::to_string(i) + " 0 0 4 " + std::to_string(r * std::cos(turn)) +
-                ' ' + std::to_string(r * std::sin(turn)) + ' ' + std::to_string(z) + ' ' +
-                std::to_string(width) + '\n';
+        suns += "sun source s" + std::to_string(i) + " 0 0 4 " +
+                std::to_string(r * std::cos(turn)) + ' ' + std::to_string(r * std::sin(turn)) +
+                ' ' + std::to_string(z) + ' ' + std::to_string(width) + '\n';
     }
     struct Case {
         std::string material;
         double least;  ///< what shows at the normal and up to 70 degrees; 1: the material conserves
     };
-    for (const Case& c :
-         {Case{"void plastic m 0 0 5 1 1 1 0 0\n", 1}, {"void metal m 0 0 5 1 1 1 0 0\n", 1},
-          {"void plastic m 0 0 5 1 1 1 .5 .2\n", .85}, {"void metal m 0 0 5 1 1 1 1 .2\n", .8},
-          {"void metal m 0 0 5 1 1 1 .7 .4\n", .7},
-          {"void metal2 m 4 1 0 0 . 0 6 1 1 1 1 .4 .15\n", .7},
-          {"void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 1 1 1 0 0 0 0 0 0\n", 1},
-          {"void plasfunc m 2 lobe lobe.cal 0 4 1 1 1 .5\n", 1},
-          {"void metfunc m 2 lobe lobe.cal 0 4 1 1 1 .5\n", 1},
-          {"void ashik2 m 4 1 0 0 . 0 8 0 0 0 .5 .5 .5 8 20\n", .33}}) {
+    for (const Case& c : {Case{"void plastic m 0 0 5 1 1 1 0 0\n", 1},
+                          {"void metal m 0 0 5 1 1 1 0 0\n", 1},
+                          {"void plastic m 0 0 5 1 1 1 .5 .2\n", .85},
+                          {"void metal m 0 0 5 1 1 1 1 .2\n", .8},
+                          {"void metal m 0 0 5 1 1 1 .7 .4\n", .7},
+                          {"void metal2 m 4 1 0 0 . 0 6 1 1 1 1 .4 .15\n", .7},
+                          {"void BRTDfunc m 10 0 0 0 0 0 0 0 0 0 . 0 9 1 1 1 0 0 0 0 0 0\n", 1},
+                          {"void plasfunc m 2 lobe lobe.cal 0 4 1 1 1 .5\n", 1},
+                          {"void metfunc m 2 lobe lobe.cal 0 4 1 1 1 .5\n", 1},
+                          {"void ashik2 m 4 1 0 0 . 0 8 0 0 0 .5 .5 .5 8 20\n", .33}}) {
         const TestScene scene(suns + c.material + sheet("s"), TestScene::exact(), functions());
         for (const double degrees : kAngles) {
             CAPTURE(c.material);

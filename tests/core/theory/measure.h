@@ -28,10 +28,9 @@ inline Rgb irradiance_rgb(const TestScene& scene, const Vec3& point, const Vec3&
     TraceContext context(scene.tracer, warnings);
     std::array<double, 3> sum{};
     for (std::uint32_t i = 0; i < times; ++i) {
-        const Rgb value = scene.tracer
-                              .irradiance(point, normal, RandomStream::of_pixel(3, i, 0, 0),
-                                          context)
-                              .value;
+        const Rgb value =
+            scene.tracer.irradiance(point, normal, RandomStream::of_pixel(3, i, 0, 0), context)
+                .value;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(value[c]) / times;
     }
     return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};

@@ -63,8 +63,7 @@ TEST_CASE("reflection: a black screen in the way hides what Lambert's polygon le
     // no shadow of it.
     TestScene scene(kZenithSun + matte("white", .6, .6, .6) + kBlack +
                         polygon("white", "floor", rectangle({0, 1, 0}, {4, 0, 0}, {0, 4, 0})) +
-                        polygon("black", "screen",
-                                rectangle({-99, 2, 0}, {200, 0, 0}, {0, 0, 1})),
+                        polygon("black", "screen", rectangle({-99, 2, 0}, {200, 0, 0}, {0, 0, 1})),
                     indirect(1, kReflectionRays));
     const double sun = measured(scene, {-5, 0, 0}, kUpward);
     for (const double z : {.5, 1.5, 2., 3.}) {
@@ -183,8 +182,7 @@ TEST_CASE("integrating sphere: E = Φ ρ / (A (1 - ρ (1 - f))), ports of any sh
             CAPTURE(rho);
             CAPTURE(degrees);
             CHECK(measured(scene, {0, 0, -1.9999}, kUpward) == within(kCase, direct + reflected));
-            CHECK(measured(scene, {0, 1.9999, 0}, {0, -1, 0}) ==
-                  within(kCase, direct + reflected));
+            CHECK(measured(scene, {0, 1.9999, 0}, {0, -1, 0}) == within(kCase, direct + reflected));
         }
     }
 }

@@ -71,8 +71,7 @@ MemoryResources formula_of(const GeneralSky& sky) {
 const std::string kSkyGlow =
     "void brightfunc shape 2 sky sky.cal 0 0\nshape glow air 0 0 4 1 1 1 0\n"
     "air source above 0 0 4 0 0 1 180\n";
-const std::string kUniformSky =
-    "void glow air 0 0 4 1 1 1 0\nair source above 0 0 4 0 0 1 180\n";
+const std::string kUniformSky = "void glow air 0 0 4 1 1 1 0\nair source above 0 0 4 0 0 1 180\n";
 
 /// Moon & Spencer: L = Lz (1 + 2 sinγ) / 3.
 double overcast_of(const Vec3& way) {
@@ -89,22 +88,22 @@ MemoryResources overcast_formula() {
 std::string black_walls(const Vec3& corner, const Vec3& size, int without) {
     const Vec3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
     const std::array<std::vector<Vec3>, 6> walls{
-        rectangle(corner, y, z), rectangle(corner + x, y, z), rectangle(corner, x, z),
-        rectangle(corner + y, x, z), rectangle(corner, x, y), rectangle(corner + z, x, y)};
+        rectangle(corner, y, z),     rectangle(corner + x, y, z), rectangle(corner, x, z),
+        rectangle(corner + y, x, z), rectangle(corner, x, y),     rectangle(corner + z, x, y)};
     std::string text = kBlack;
     for (int i = 0; i < 6; ++i)
         if (i != without)
-            text += polygon("black", "wall" + std::to_string(i), walls[static_cast<std::size_t>(i)]);
+            text +=
+                polygon("black", "wall" + std::to_string(i), walls[static_cast<std::size_t>(i)]);
     return text;
 }
 
 /// A black room whose roof at height 3 has an opening of 1 x 2 about (.5, 1).
-const std::string kRoof =
-    black_walls({-4, -4, -1}, {10, 10, 4}, 5) +
-    polygon("black", "a", rectangle({-9, -9, 3}, {9, 0, 0}, {0, 20, 0})) +
-    polygon("black", "b", rectangle({1, -9, 3}, {9, 0, 0}, {0, 20, 0})) +
-    polygon("black", "c", rectangle({0, -9, 3}, {1, 0, 0}, {0, 9, 0})) +
-    polygon("black", "d", rectangle({0, 2, 3}, {1, 0, 0}, {0, 9, 0}));
+const std::string kRoof = black_walls({-4, -4, -1}, {10, 10, 4}, 5) +
+                          polygon("black", "a", rectangle({-9, -9, 3}, {9, 0, 0}, {0, 20, 0})) +
+                          polygon("black", "b", rectangle({1, -9, 3}, {9, 0, 0}, {0, 20, 0})) +
+                          polygon("black", "c", rectangle({0, -9, 3}, {1, 0, 0}, {0, 9, 0})) +
+                          polygon("black", "d", rectangle({0, 2, 3}, {1, 0, 0}, {0, 9, 0}));
 
 double through_roof(const Vec3& point, const Vec3& normal,
                     const std::function<double(const Vec3&)>& radiance) {
@@ -112,12 +111,11 @@ double through_roof(const Vec3& point, const Vec3& normal,
 }
 
 /// A black room where y > 0, whose facade y = 0 has a window from x = 0 to 2 and z = 1 to 2.5.
-const std::string kFacade =
-    black_walls({-3, 0, 0}, {8, 6, 3.5}, 2) +
-    polygon("black", "a", rectangle({-9, 0, -9}, {9, 0, 0}, {0, 0, 18})) +
-    polygon("black", "b", rectangle({2, 0, -9}, {9, 0, 0}, {0, 0, 18})) +
-    polygon("black", "c", rectangle({0, 0, -9}, {2, 0, 0}, {0, 0, 10})) +
-    polygon("black", "d", rectangle({0, 0, 2.5}, {2, 0, 0}, {0, 0, 9}));
+const std::string kFacade = black_walls({-3, 0, 0}, {8, 6, 3.5}, 2) +
+                            polygon("black", "a", rectangle({-9, 0, -9}, {9, 0, 0}, {0, 0, 18})) +
+                            polygon("black", "b", rectangle({2, 0, -9}, {9, 0, 0}, {0, 0, 18})) +
+                            polygon("black", "c", rectangle({0, 0, -9}, {2, 0, 0}, {0, 0, 10})) +
+                            polygon("black", "d", rectangle({0, 0, 2.5}, {2, 0, 0}, {0, 0, 9}));
 
 /// Through the window's part between two heights.
 double through_window(const Vec3& point, const Vec3& normal, double from, double to,
@@ -232,9 +230,8 @@ TEST_CASE("window: sky above the horizon, sunlit ground below it, with a pane an
     const std::string outside = kSkyGlow + "void glow earth 0 0 4 " + std::to_string(ground) + ' ' +
                                 std::to_string(ground) + ' ' + std::to_string(ground) +
                                 " 0\nearth source below 0 0 4 0 0 -1 180\n";
-    const std::string pane =
-        "void glass clear 0 0 3 .96 .96 .96\n" +
-        polygon("clear", "pane", rectangle({0, 0, 1}, {2, 0, 0}, {0, 0, 1.5}));
+    const std::string pane = "void glass clear 0 0 3 .96 .96 .96\n" +
+                             polygon("clear", "pane", rectangle({0, 0, 1}, {2, 0, 0}, {0, 0, 1.5}));
     TestScene open(kFacade + outside, indirect(1, kSkyRays), overcast_formula());
     TestScene glazed(kFacade + pane + outside, indirect(1, kSkyRays), overcast_formula());
     for (const auto& [point, normal] : kInRoom) {
@@ -247,10 +244,10 @@ TEST_CASE("window: sky above the horizon, sunlit ground below it, with a pane an
         };
         CHECK(measured(open, point, normal) ==
               within(kCase, whole([](const Vec3&) { return 1.; })));
-        CHECK(measured(glazed, point, normal) ==
-              within(kCase, whole([](const Vec3& w) {
-                         return pane_transmittance_of(std::abs(w.y), 1.52, .96);
-                     })));
+        CHECK(measured(glazed, point, normal) == within(kCase, whole([](const Vec3& w) {
+                                                            return pane_transmittance_of(
+                                                                std::abs(w.y), 1.52, .96);
+                                                        })));
     }
 }
 
@@ -258,9 +255,9 @@ TEST_CASE("window with masks: an overhang and a building opposite hide what lies
     // 5.13 and 5.14 of CIE 171: both are endless to the sides.
     const std::string overhang =
         polygon("black", "shade", rectangle({-999, -1.2, 2.6}, {2000, 0, 0}, {0, 1.2, 0}));
-    const std::string building = "void glow front 0 0 4 .2 .2 .2 0\n" +
-                                 polygon("front", "opposite",
-                                         rectangle({-9999, -10, -5}, {0, 0, 10}, {20000, 0, 0}));
+    const std::string building =
+        "void glow front 0 0 4 .2 .2 .2 0\n" +
+        polygon("front", "opposite", rectangle({-9999, -10, -5}, {0, 0, 10}, {20000, 0, 0}));
     TestScene shaded(kFacade + overhang + kSkyGlow, indirect(1, kSkyRays), overcast_formula());
     TestScene facing(kFacade + building + kSkyGlow, indirect(1, kSkyRays), overcast_formula());
     for (const auto& [point, normal] : kInRoom) {
@@ -269,12 +266,11 @@ TEST_CASE("window with masks: an overhang and a building opposite hide what lies
             return p.z + (height - p.z) * p.y / (p.y + distance);
         };
         CHECK(measured(shaded, point, normal) ==
-              within(kCase,
-                     through_window(point, normal, point.z, passes(1.2, 2.6), overcast_of)));
+              within(kCase, through_window(point, normal, point.z, passes(1.2, 2.6), overcast_of)));
         const double over = passes(10, 5);
         CHECK(measured(facing, point, normal) ==
-              within(kCase, through_window(point, normal, over, 9, overcast_of) +
-                                through_window(point, normal, 0, over,
-                                               [](const Vec3&) { return .2; })));
+              within(kCase,
+                     through_window(point, normal, over, 9, overcast_of) +
+                         through_window(point, normal, 0, over, [](const Vec3&) { return .2; })));
     }
 }
