@@ -221,7 +221,8 @@ TEST_CASE("glare: a wide source lights the eye by all its pixels, not by its mid
     // Its veil, of a place 10 degrees off: 10 E / theta².
     const GlareReport disc = report_of('a', 100, {{10, 0, 2, 10000}});
     const double E = disc.sources[0].illuminance;
-    CHECK(glare_indices(disc, Camera(view).forward()).veiling_luminance == within(1e-2, E / 10));
+    CHECK(glare_indices(disc, Camera(view).forward()).veiling_luminance ==
+          within(3e-2, E / 10));  // its pixels are .9 degrees
 }
 
 TEST_CASE("glare: the angular and the hemispherical picture of a room agree") {

@@ -2,8 +2,6 @@
 // closed rooms, and colours that go from one surface to the next.
 #include <doctest/doctest.h>
 
-#include <numeric>
-
 #include "tests/core/theory/measure.h"
 
 using namespace lightwalk;
