@@ -328,13 +328,14 @@ TEST_CASE("names: falsecolor shows values as colours, lines and a legend") {
     CHECK(drawn == 3);
     CHECK(row("-lh 0 -s auto") != row("-lh 0"));
     // The legend is to the left, the label its first line.
-    CHECK(names.out("falsecolor -i a.hdr | getinfo -d") == "-Y       16 +X      164\n");
+    CHECK(names.out("falsecolor -i a.hdr > b.hdr && getinfo -d < b.hdr") ==
+          "-Y       16 +X      164\n");
     const std::vector<double> legend = row("-l I -lw 64");
     CHECK(legend[3 * 2] > .99);  // a serif
     CHECK(legend[3 * 10] < .004);
     CHECK(names.out("falsecolor -e -lw 0 < a.hdr | pvalue -h -H -d -b") !=
           names.out("falsecolor -lw 0 < a.hdr | pvalue -h -H -d -b"));
-    CHECK(names.out("falsecolor -i a.hdr -lw 0 | getinfo | grep falsecolor") ==
+    CHECK(names.out("falsecolor -i a.hdr -lw 0 > b.hdr && getinfo < b.hdr | grep falsecolor") ==
           "falsecolor -i a.hdr -lw 0\n");
     for (const std::string wrong : {"-i none.hdr", "-s 0 -i a.hdr", "-r v -i a.hdr", "a.hdr",
                                     "-n 0 -i a.hdr", "-i v.txt", "-lw 9999999 -i a.hdr"}) {
