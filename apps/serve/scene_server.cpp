@@ -96,7 +96,8 @@ class Entrance {
         if (!socket_ ||
             bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
             listen(socket_.get(), SOMAXCONN) != 0 || stat(path, &state_) != 0)
-            throw InputError({path, 0}, std::string("cannot be made: ") + std::strerror(errno));
+            throw InputError({path, 0},
+                             "cannot be made: " + std::generic_category().message(errno));
         set_interrupt_litter(path_);
     }
     Entrance(const Entrance&) = delete;
@@ -171,7 +172,7 @@ class SceneServer {
         sigset_t ends{};
         sigemptyset(&ends);
         sigaddset(&ends, SIGCHLD);
-        sigprocmask(SIG_BLOCK, &ends, nullptr);
+        pthread_sigmask(SIG_BLOCK, &ends, nullptr);
         ends_ = FileDescriptor(signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK));
         if (!ends_) throw InputError("cannot watch what is served");
     }

@@ -101,7 +101,7 @@ bool is_second_run(const Question& question) {
     for (int number = 1; number <= kSignals; ++number) (void)signal(number, SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, nullptr);
+    pthread_sigmask(SIG_SETMASK, &none, nullptr);
     char name[] = "lightwalk", command[] = "trace", serve[] = "--serve";
     char* const words[] = {name, command, serve, const_cast<char*>(question.scene), nullptr};
     execve(question.program, words, environment);
@@ -167,7 +167,7 @@ std::size_t write_request(const SceneKey& key, char* const* words, char* const* 
     umask(head.mask);
     head.ignored = ignored_signals();
     sigset_t blocked;
-    sigprocmask(SIG_BLOCK, nullptr, &blocked);
+    pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
     std::memcpy(&head.blocked, &blocked, sizeof head.blocked);
     std::size_t size = sizeof head;
     std::memcpy(bytes + size, key.bytes, key.size);
@@ -226,7 +226,7 @@ bool receive(int socket, int patience, ServedReply& reply) {
     sigset_t own;
     sigemptyset(&own);
     sigaddset(&own, reply.value);
-    sigprocmask(SIG_UNBLOCK, &own, nullptr);
+    pthread_sigmask(SIG_UNBLOCK, &own, nullptr);
     kill(getpid(), reply.value);
     _exit(128 + reply.value);
 }

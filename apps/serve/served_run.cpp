@@ -131,7 +131,7 @@ void take_signals(int socket, const RequestHead& head) {
     static_assert(sizeof blocked >= sizeof head.blocked);
     std::memcpy(&blocked, &head.blocked, sizeof head.blocked);
     sigdelset(&blocked, SIGIO);
-    sigprocmask(SIG_SETMASK, &blocked, nullptr);
+    pthread_sigmask(SIG_SETMASK, &blocked, nullptr);
     // The socket tells by SIGIO when the other end closes.
     (void)fcntl(socket, F_SETOWN, getpid());
     (void)fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) | O_ASYNC);
