@@ -25,6 +25,7 @@ namespace {
 
 constexpr int kPatience = 5000;  ///< for a server to begin [ms]
 constexpr int kSignals = 64;
+constexpr std::size_t kMostVariables = 4096;  ///< of a server's environment
 
 struct Question {
     char program[4096];
@@ -104,7 +105,14 @@ bool is_second_run(const Question& question) {
     pthread_sigmask(SIG_SETMASK, &none, nullptr);
     char name[] = "lightwalk", command[] = "trace", serve[] = "--serve";
     char* const words[] = {name, command, serve, const_cast<char*>(question.scene), nullptr};
-    execve(question.program, words, environment);
+    static char bind_at_once[sizeof kBindAtOnce];  // NOLINT: what follows may not allocate
+    static char* variables[kMostVariables];        // NOLINT
+    std::memcpy(bind_at_once, kBindAtOnce, sizeof kBindAtOnce);
+    std::size_t count = 0;
+    variables[count++] = bind_at_once;
+    for (; *environment != nullptr && count < kMostVariables - 1; ++environment)
+        variables[count++] = *environment;
+    if (*environment == nullptr) execve(question.program, words, variables);
     _exit(1);
 }
 

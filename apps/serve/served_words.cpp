@@ -40,6 +40,7 @@ class Appender {
 constexpr const char* kMatters[] = {"RAYPATH=", "LD_", "GLIBC_TUNABLES=", "MALLOC_"};
 
 bool matters(const char* variable) {
+    if (std::strncmp(variable, kBindAtOnce, std::strlen("LD_BIND_NOW=")) == 0) return false;
     for (const char* const start : kMatters)
         if (std::strncmp(variable, start, std::strlen(start)) == 0) return true;
     return false;

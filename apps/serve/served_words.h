@@ -10,6 +10,9 @@ inline constexpr std::size_t kMostRequest = std::size_t{128} << 10;  ///< bytes;
 inline constexpr std::size_t kMostServedPath = 100;                  ///< bytes of a socket's path
 inline constexpr int kServedStreams = 3;  ///< standard input, output and error
 
+/// For a server: what it forks has no symbols to look up.
+inline constexpr char kBindAtOnce[] = "LD_BIND_NOW=1";
+
 /// What makes a scene another one, as bytes: the program, the folder, the word that names the
 /// octree, where files are looked for, and which processes share memory and processors with the one
 /// that asks. Who has the same bytes reads the same scene, as long as
