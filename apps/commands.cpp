@@ -111,6 +111,16 @@ instances, memory, and what Lightwalk does not support, with the first place of 
 cannot be rendered; what could be found out is printed all the same.
 )",
      "", false},
+    {"launch", "COMMAND ...        a command on many ranks, again where one is lost", run_launch,
+     launch_option_table,
+     R"(Start a command on many ranks by Open MPI's mpirun, with the settings that let it notice a host that is gone. Where a
+rank or a host is lost, `render --checkpoint FILE` and `animate` are started again and go on from what is kept, without the
+hosts that do not answer: the picture is the same. What the command itself ends with, bad input above all, is no loss.
+)",
+     R"(
+  lightwalk launch --hosts hosts render --checkpoint kept -vf view.vf -o picture.hdr building.oct
+)",
+     false},
     {"install-names", "FOLDER      the program by the names of Radiance's", run_install_names,
      install_names_option_table,
      R"(Make a folder of links to this program: oconv, rtrace, rpict, rcontrib, gensky, gendaylit, genbox, xform, getinfo,

@@ -27,6 +27,7 @@ int run_contrib(const std::vector<std::string>& words, Communicator* ranks);
 int run_relight(const std::vector<std::string>& words, Communicator* ranks);
 int run_freeze(const std::vector<std::string>& words, Communicator* ranks);
 int run_info(const std::vector<std::string>& words, Communicator* ranks);
+int run_launch(const std::vector<std::string>& words, Communicator* ranks);
 int run_install_names(const std::vector<std::string>& words, Communicator* ranks);
 // The same by the names of Radiance's programs, which messages and headers have: as many threads as
 // these have processes, and commands in scene files are run.
@@ -39,12 +40,14 @@ int run_rtrace_on(const std::shared_ptr<const ResidentScene>& scene,
 
 /// The commands in With::commands.
 inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFreeze = 16,
-                          kInfo = 32, kContrib = 64, kRelight = 128, kInstallNames = 256;
+                          kInfo = 32, kContrib = 64, kRelight = 128, kInstallNames = 256,
+                          kLaunch = 512;
 
 /// The options of each, with their defaults.
 [[nodiscard]] OptionTable freeze_option_table();
 [[nodiscard]] OptionTable info_option_table();
 [[nodiscard]] OptionTable relight_option_table();
+[[nodiscard]] OptionTable launch_option_table();
 [[nodiscard]] OptionTable install_names_option_table();
 
 struct Command {

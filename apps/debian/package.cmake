@@ -8,7 +8,7 @@ set(debian ${PROJECT_BINARY_DIR}/debian)
 
 # What the program says of itself, as pages for man(1).
 set(manual_pages "")
-foreach(command "" render animate walk trace contrib relight freeze info install-names)
+foreach(command "" render animate walk trace contrib relight freeze info launch install-names)
   string(REGEX REPLACE "(.+)" "-\\1" ending "${command}")
   set(page ${debian}/man/lightwalk${ending}.1)
   add_custom_command(OUTPUT ${page}.gz COMMAND ${CMAKE_COMMAND} -E make_directory ${debian}/man

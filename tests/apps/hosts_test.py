@@ -95,15 +95,17 @@ class Cluster:
     def cut_off(self, host, cut=True):
         self.run(f"ip link set link{HOSTS.index(host)} {'down' if cut else 'up'}")
 
-    def start(self, words, settings=None, ranks=1):
-        """mpirun on the first host, with so many ranks on each."""
+    def start(self, words, settings=None, ranks=1, launcher=None):
+        """mpirun, or another launcher, on the first host, with so many ranks on each."""
+        if launcher is None:
+            launcher = ["mpirun", "--host", ",".join(f"{host}:{ranks}" for host in HOSTS), "-n", str(ranks * len(HOSTS))]
         environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         environment["OMPI_MCA_plm_rsh_agent"] = str(self.agent)
         environment["OMPI_MCA_orte_tmpdir_base"] = str(self.folder)
         environment.update({"OMPI_MCA_" + name: value for name, value in (settings or {}).items()})
         return subprocess.Popen(
-            ["nsenter", "-t", str(self.processes[HOSTS[0]]), "-n", "-u", "-m", "--wdns=" + str(self.folder), "mpirun",
-             "--host", ",".join(f"{host}:{ranks}" for host in HOSTS), "-n", str(ranks * len(HOSTS)), LIGHTWALK, *words],
+            ["nsenter", "-t", str(self.processes[HOSTS[0]]), "-n", "-u", "-m", "--wdns=" + str(self.folder),
+             *launcher, LIGHTWALK, *words],
             env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def finish(self, words, settings=None, ranks=1):
@@ -134,9 +136,9 @@ def slow_picture(folder):
             "--checkpoint", "kept", "--resume", "-o", "out.hdr", "room.rad"]
 
 
-def lose_third(cluster, words, settings):
+def lose_third(cluster, words, settings, launcher=None):
     """A run that loses a host once it has kept something; with its outputs once it is over."""
-    process = cluster.start(words, settings)
+    process = cluster.start(words, settings, launcher=launcher)
     kept = cluster.folder / "kept"
     while not kept.exists() or kept.stat().st_size < 10000:
         check(process.poll() is None, "the run ended before it kept anything: " + str(process.poll()))
@@ -163,6 +165,21 @@ def case_lost(cluster):
     resumed = pixels(cluster.folder / "out.hdr")
     subprocess.run([LIGHTWALK, *words], cwd=cluster.folder, check=True)
     check(pixels(cluster.folder / "out.hdr") == resumed, "the resumed picture is another one")
+
+
+def case_launched(cluster):
+    """A picture that is launched survives a host that is cut off, and has the same bytes."""
+    words = slow_picture(cluster.folder)
+    hosts = cluster.folder / "named"
+    hosts.write_text("".join(f"{host} slots=1\n" for host in HOSTS))
+    launch = ["launch", "--hosts", str(hosts), "--retries", "5", *words]
+    process = lose_third(cluster, launch, {}, launcher=[])
+    out, err = process.communicate()
+    check(process.returncode == 0, f"status {process.returncode}: {err}")
+    check("third does not answer: goes on without it" in err, err)
+    resumed = pixels(cluster.folder / "out.hdr")
+    subprocess.run([LIGHTWALK, *words], cwd=cluster.folder, check=True)
+    check(pixels(cluster.folder / "out.hdr") == resumed, "the picture is another one")
 
 
 def case_silent(cluster):

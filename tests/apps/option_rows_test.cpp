@@ -89,7 +89,7 @@ bool lists(const std::string& help, const OptionRow& row) {
 
 bool has_few_options(const Command& command) {
     const std::string name = command.name;
-    return name == "relight" || name == "install-names";
+    return name == "relight" || name == "launch" || name == "install-names";
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+// lightwalk launch: pictures survive the loss of ranks.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/apps/rank_runs.h"
+#include "tests/temporary_folder.h"
+
+namespace lightwalk::test {
+namespace {
+
+using namespace rank_runs;
+
+/// What mpirun needs here: what stands before it, and behind it but for the number of ranks.
+struct MpirunNeeds {
+    std::vector<std::string> environment;
+    std::string options;
+};
+
+MpirunNeeds mpirun_needs() {
+    const std::vector<std::string> all = *mpirun(1);
+    const auto at = std::find(all.begin(), all.end(), "mpirun");
+    MpirunNeeds needs{{all.begin(), at}, {}};
+    for (auto word = at + 1; word != all.end(); ++word) {
+        if (*word == "-n")
+            ++word;  // launch says how many
+        else
+            needs.options += *word + ' ';
+    }
+    return needs;
+}
+
+std::vector<std::string> launch(const std::vector<std::string>& options,
+                                const std::vector<std::string>& command) {
+    std::vector<std::string> words{"launch", "--ranks", "3", "--mpirun", mpirun_needs().options};
+    words.insert(words.end(), options.begin(), options.end());
+    words.insert(words.end(), command.begin(), command.end());
+    return words;
+}
+
+/// Ranks with this word on their command lines; the launcher has it, too.
+std::vector<int> ranks_with(const std::string& word) {
+    std::vector<int> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        const std::string words = read_whole(entry.path() / "cmdline");
+        if (words.starts_with(LIGHTWALK_PROGRAM) && words.find(word) != std::string::npos &&
+            words.find("launch") == std::string::npos)
+            found.push_back(std::stoi(name));
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("launch: a picture survives ranks that are killed, and is the same") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::vector<std::string> slow = with(kLongRun, {"-n", "1", "--variant", "ranks"});
+    const std::string out = folder.path("out.hdr"), kept = folder.path("blocks");
+    REQUIRE(run_program(line(with(kLongRun, {"-o", folder.path("whole.hdr"), scene}))).status == 0);
+    RunningProgram program(
+        launch({"--retries", "9"}, line(with(slow, {"--checkpoint", kept, "-o", out, scene}))),
+        mpirun_needs().environment);
+    int killed = 0;
+    for (std::vector<int> before; killed < 2 && !std::filesystem::exists(out);) {
+        std::vector<int> ranks;
+        const auto others_run = [&] {
+            ranks = ranks_with(kept);
+            return std::filesystem::exists(out) ||
+                   (ranks.size() == 3 && ranks != before && std::filesystem::exists(kept));
+        };
+        if (!comes_true(others_run)) FAIL("the ranks do not start");
+        if (std::filesystem::exists(out)) break;
+        killed += kill(ranks[static_cast<std::size_t>(killed)], SIGKILL) == 0;
+        before = ranks;
+    }
+    const ProgramResult result = program.finish();
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    if (killed > 0) CHECK(result.err.find("goes on (1 of 9)") != std::string::npos);
+    CHECK(pixel_bytes(read_whole(out)) == pixel_bytes(read_whole(folder.path("whole.hdr"))));
+}
+
+TEST_CASE("launch: what a command ends with by itself is no loss") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string kept = folder.path("blocks"), out = folder.path("out.hdr");
+    const ProgramResult missing =
+        run_program(launch({}, line({"--checkpoint", kept, "-o", out, folder.path("missing.rad")})),
+                    "", mpirun_needs().environment);
+    CHECK(missing.status == 1);
+    CHECK(missing.err.find("cannot open") != std::string::npos);
+    CHECK(missing.err.find("goes on") == std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("launch: mistakes are told before anything is started") {
+    const TemporaryFolder folder;
+    const auto said = [&](const std::vector<std::string>& words, int status) {
+        const ProgramResult result = run_program(words);
+        CAPTURE(result.err);
+        CHECK(result.status == status);
+        return result.err;
+    };
+    CHECK(said({"launch", "render", "room.rad"}, 2).find("--checkpoint") != std::string::npos);
+    CHECK(said({"launch"}, 2).find("expected a command") != std::string::npos);
+    CHECK(said({"launch", "info", "room.rad"}, 2).find("expected a command") != std::string::npos);
+    CHECK(said({"launch", "--rank", "3", "render"}, 2).find("--ranks") != std::string::npos);
+    const std::string hosts = folder.write("hosts", "# two\nfirst slots=2\nsecond cores=2\n");
+    CHECK(said({"launch", "--hosts", hosts, "animate", "room.rad"}, 1)
+              .find(hosts + ":3: expected NAME") != std::string::npos);
+    const std::string none = folder.write("none", "# nothing\n");
+    CHECK(said({"launch", "--hosts", none, "animate", "room.rad"}, 1).find("names no host") !=
+          std::string::npos);
+}
+
+}  // namespace lightwalk::test
