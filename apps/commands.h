@@ -12,6 +12,9 @@ namespace lightwalk {
 class Communicator;
 class ResidentScene;
 
+/// The environment variable by which `launch` tells a walk its token.
+inline constexpr const char* kWalkToken = "LIGHTWALK_WALK_TOKEN";
+
 inline constexpr int kSuccessStatus = 0;
 inline constexpr int kFailureStatus = 1;  ///< bad input, or output that could not be written
 inline constexpr int kUsageStatus = 2;    ///< a command line that was not understood

@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <random>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -34,7 +36,8 @@ using Words = std::vector<std::string>;
 
 constexpr int kMostRanks = 1 << 16;
 constexpr int kMostRetries = 1000;
-constexpr int kAnswerPatience = 5000;  ///< for a host to answer [ms]
+constexpr std::chrono::minutes kLongRun{1};  ///< after which retries count anew
+constexpr int kAnswerPatience = 5000;        ///< for a host to answer [ms]
 
 struct LaunchCommand {
     int ranks = 0;      ///< --ranks; 0: one for each slot of the hosts
@@ -54,7 +57,8 @@ OptionTable launch_table(LaunchCommand& c) {
           {"--hosts FILE", &c.hosts, "a host a line: NAME, or NAME slots=N"},
           {"--retries N", &c.retries,
            "how often the command is started again when a rank or a host has been lost: it goes "
-           "on from what is kept, without hosts that do not answer",
+           "on from what is kept, without hosts that do not answer. After a minute without a loss "
+           "it counts anew",
            With{.least = 0, .most = kMostRetries, .expected = "a number from 0"}},
           {"--mpirun WORDS", &c.more,
            "more words for mpirun, in one: \"--map-by socket --bind-to socket\""},
@@ -124,6 +128,15 @@ void set_by_default(const char* name, const char* value) {
     (void)setenv(name, value, 0);  // NOLINT(concurrency-mt-unsafe): there is one thread
 }
 
+/// A secret of 128 bits, as 32 hex digits.
+std::string make_secret() {
+    std::random_device random;
+    std::string digits;
+    constexpr int kBits = 128;
+    for (int i = 0; i < kBits / 4; ++i) digits += "0123456789abcdef"[random() & 15U];
+    return digits;
+}
+
 /// With these mpirun notices that a host is gone, and a rank that is killed holds no lock.
 void settle_mpi() {
     set_by_default("OMPI_MCA_oob_tcp_keepalive_time", "5");
@@ -153,7 +166,10 @@ class Launch {
         program_ = std::filesystem::canonical("/proc/self/exe", error).string();
         if (!options_.hosts.empty()) hosts_ = read_hosts(options_.hosts);
         const bool picture = command_.front() == "render";
-        can_go_on_ = command_.front() == "animate" || (picture && has("--checkpoint"));
+        walks_ = command_.front() == "walk";
+        can_go_on_ = walks_ || command_.front() == "animate" || (picture && has("--checkpoint"));
+        if (walks_ && is_any_port())
+            throw UsageError("option --port: expected a number: pages look for it again");
         if (picture && !can_go_on_ && options_.retries > 0)
             throw UsageError("option --retries: expected --checkpoint FILE behind render");
         if (!can_go_on_) options_.retries = 0;
@@ -163,17 +179,20 @@ class Launch {
 
     int run() {
         settle_mpi();
+        if (walks_) set_by_default(kWalkToken, make_secret().c_str());
         sigset_t before{};
         pthread_sigmask(SIG_BLOCK, &signals_, &before);
         int status = kFailureStatus;
-        for (int retry = 0;; ++retry) {
-            bool interrupted = false;
-            const int how = wait_for(start(retry > 0, before), signals_, interrupted);
+        bool again = false, interrupted = false;
+        for (int retry = 0;; ++retry, again = true) {
+            const auto begin = std::chrono::steady_clock::now();
+            const int how = wait_for(start(again, before), signals_, interrupted);
+            if (std::chrono::steady_clock::now() - begin > kLongRun) retry = 0;
             status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
             const bool done = status == kSuccessStatus || status == kUsageStatus || interrupted;
             if (done || retry == options_.retries || !is_loss(status)) break;
-            std::fprintf(stderr, "lightwalk launch: ended with status %d: goes on (%d of %d)\n",
-                         status, retry + 1, options_.retries);
+            std::fprintf(stderr, "lightwalk launch: ended with status %d: %s (%d of %d)\n", status,
+                         walks_ ? "begins anew" : "goes on", retry + 1, options_.retries);
         }
         pthread_sigmask(SIG_SETMASK, &before, nullptr);
         return status;
@@ -182,6 +201,11 @@ class Launch {
   private:
     [[nodiscard]] bool has(const std::string& word) const {
         return std::ranges::find(command_, word) != command_.end();
+    }
+
+    [[nodiscard]] bool is_any_port() const {
+        const auto at = std::ranges::find(command_, "--port");
+        return at != command_.end() && at + 1 != command_.end() && *(at + 1) == "0";
     }
 
     [[nodiscard]] Words words_of(bool again) const {
@@ -198,10 +222,11 @@ class Launch {
         if (ranks > 0) words.insert(words.end(), {"-n", std::to_string(ranks)});
         if (!hosts_.empty() && std::getenv("RAYPATH") != nullptr)  // NOLINT: there is one thread
             words.insert(words.end(), {"-x", "RAYPATH"});
+        if (!hosts_.empty() && walks_) words.insert(words.end(), {"-x", kWalkToken});
         std::istringstream more(options_.more);
         for (std::string word; more >> word;) words.push_back(word);
         words.insert(words.end(), {program_, command_.front()});
-        if (again && !has("--resume")) words.emplace_back("--resume");
+        if (again && !walks_ && !has("--resume")) words.emplace_back("--resume");
         words.insert(words.end(), command_.begin() + 1, command_.end());
         return words;
     }
@@ -245,7 +270,7 @@ class Launch {
     Words command_;
     std::string program_;
     std::vector<Host> hosts_;
-    bool can_go_on_ = false;
+    bool can_go_on_ = false, walks_ = false;
     sigset_t signals_{};
 };
 

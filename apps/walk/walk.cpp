@@ -1,6 +1,7 @@
 // lightwalk walk: light in the browser. A web server on a thread of its own, and the frames.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "apps/command_run.h"
+#include "apps/commands.h"
 #include "apps/interrupt.h"
 #include "apps/render_command.h"
 #include "apps/session/render_backend.h"
@@ -54,8 +56,15 @@ View view_of(const Scene& scene) {
 
 WebServerOptions server_options(const ServeCommand& serve) {
     WebServerOptions options = serve.server;
-    if (!is_loopback(options.address)) options.token = make_token();
     options.limits.close_timeout = std::chrono::milliseconds(300);  // Ctrl-C is soon over
+    if (is_loopback(options.address)) return options;
+    // That of `lightwalk launch`, so that pages find a walk that is started again.
+    constexpr std::size_t kDigits = 32;
+    const char* const given = std::getenv(kWalkToken);  // NOLINT(concurrency-mt-unsafe)
+    const std::string token = given != nullptr ? given : "";
+    const bool good =
+        token.size() == kDigits && token.find_first_not_of("0123456789abcdef") == std::string::npos;
+    options.token = good ? token : make_token();
     return options;
 }
 
