@@ -28,6 +28,13 @@ def ranks_of(port):
     return sorted(found)
 
 
+def view_of(file):
+    """Where the view of a file is, as messages have it."""
+    words = file.read_text().split()
+    names = {"-vp": "position", "-vd": "direction", "-vu": "up"}
+    return {name: [float(word) for word in words[words.index(option) + 1:][:3]] for option, name in names.items() if option in words}
+
+
 def connected(port):
     end = time.monotonic() + PATIENCE
     while True:
@@ -45,6 +52,7 @@ def main(program, scene=None, view=None):
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0:handle_sigill=1")
     with tempfile.TemporaryDirectory() as folder:
         words = ["-vf", view] if view else WORDS.split()
+        place = view_of(pathlib.Path(view)) if view else {"position": [1, -3, 1.5]}
         if scene is None:
             scene = pathlib.Path(folder) / "room.rad"
             scene.write_text(ROOM)
@@ -57,9 +65,8 @@ def main(program, scene=None, view=None):
             pictures, times = [], []
             for victim in range(RANKS + 1):
                 client = connected(port)
-                home = client.told("welcome")["view"]
                 client.told("loaded")
-                client.look(**(home if view else {"position": [1, -3, 1.5]}))
+                client.look(**place)
                 client.frame(1)
                 drawn = time.monotonic()
                 client.until(lambda m: hasattr(m, "at_rest") and m.at_rest)
