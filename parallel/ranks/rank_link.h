@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -223,6 +224,7 @@ class RankLink {
     [[nodiscard]] std::string named(int rank, const std::string& host) const;
 
     Communicator& communicator_;
+    std::shared_ptr<RankThreads> threads_;
     Topology topology_;
     std::string program_, host_;
     TakeFailure failed_;
