@@ -51,6 +51,7 @@ RankLink::RankLink(Communicator& communicator, const Topology& topology,
       patience_(patience_of(topology)),
       roles_(communicator.rank(), topology, with_timed_encoding(settings, timeline_)),
       pulse_(communicator.rank(), communicator.size(), settings.pulse),
+      hosts_(static_cast<std::size_t>(communicator.size())),
       owners_(roles_.collectives().members(Collective::Group::owners)),
       inbox_(threads_),
       cache_(settings.ambient_batch, [this](AmbientValues values) {
@@ -181,7 +182,10 @@ std::vector<std::uint64_t> RankLink::all_reduce(Collective::Group group,
 
 std::string RankLink::broadcast(std::string bytes) {
     post(Activity::handle, [this, own = std::move(bytes)](RankRoles&, Outbox&) {
-        std::string got = communicator_.broadcast(own);
+        std::string got = communicator_.broadcast(own, [this] {
+            (void)handle_arrived();
+            keep_pulse();
+        });
         {
             const std::lock_guard lock(mutex_);
             broadcast_ = std::move(got);
@@ -255,10 +259,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
 
 void RankLink::watch_others(std::vector<std::string> hosts) {
     if (communicator_.on_one_machine()) return;
-    post(Activity::handle, [this, all = std::move(hosts)](RankRoles&, Outbox&) {
-        hosts_ = all;
-        pulse_.start(threads_->now());
-    });
+    post(Activity::handle, [this, all = std::move(hosts)](RankRoles&, Outbox&) { hosts_ = all; });
     round_trip_ = shortest_round_trip(everyone_);
 }
 
@@ -321,6 +322,7 @@ RankReport RankLink::report() const {
 
 void RankLink::handle_messages(const StopFlag& stop) {
     try {
+        if (!communicator_.on_one_machine()) pulse_.start(threads_->now());
         take_step(Activity::handle, [](RankRoles& roles, Outbox& out) { roles.begin(out); });
         microseconds wait = patience_.shortest;
         while (goes_on()) {
@@ -491,7 +493,8 @@ void RankLink::end_run(int rank, const std::string& host, const std::string& tex
 }
 
 std::string RankLink::named(int rank, const std::string& host) const {
-    return program_ + ": rank " + std::to_string(rank) + " (" + host + "): ";
+    return program_ + ": rank " + std::to_string(rank) + (host.empty() ? "" : " (" + host + ")") +
+           ": ";
 }
 
 }  // namespace lightwalk

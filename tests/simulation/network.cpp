@@ -40,18 +40,20 @@ class SimulatedCommunicator final : public Communicator {
         world_.wake(&own_.inbox);
     }
 
-    [[nodiscard]] std::string broadcast(std::string bytes) override {
+    [[nodiscard]] std::string broadcast(std::string bytes, FunctionRef<void()> meanwhile) override {
         if (rank_ == 0) {
             for (int to = 1; to < size(); ++to) {
-                network_.carry(0, to, [this, to, bytes] {
-                    Network::Rank& rank = network_.rank_of(to);
+                network_.carry(0, to, [&rank = network_.rank_of(to), &world = world_, bytes] {
                     rank.broadcasts.push_back(bytes);
-                    world_.wake(&rank.broadcasts);
+                    world.wake(&rank.broadcasts);
                 });
             }
             return bytes;
         }
-        while (own_.broadcasts.empty()) world_.wait(&own_.broadcasts);
+        while (own_.broadcasts.empty()) {
+            world_.wait(&own_.broadcasts, world_.now() + World::kCoarse);
+            meanwhile();
+        }
         std::string got = std::move(own_.broadcasts.front());
         own_.broadcasts.pop_front();
         return got;
@@ -112,8 +114,8 @@ void Network::send(Packet packet) {
 }
 
 void Network::carry(int from, int to, std::function<void()> arrive) {
-    Time& last = last_[static_cast<std::size_t>(from) * ranks_.size() +
-                       static_cast<std::size_t>(to)];
+    Time& last =
+        last_[static_cast<std::size_t>(from) * ranks_.size() + static_cast<std::size_t>(to)];
     last = std::max(last, world_.now() + world_.chance().up_to(longest_));
     arrive_at(last, from, to, std::move(arrive));
 }

@@ -40,9 +40,7 @@ class Network {
     /// The rank has returned from its run: nothing but signs of life may come for it any more.
     void left(int rank) { rank_of(rank).left = true; }
 
-    [[nodiscard]] bool is_cut(int rank) const {
-        return ranks_[static_cast<std::size_t>(rank)].cut;
-    }
+    [[nodiscard]] bool is_cut(int rank) const { return ranks_[static_cast<std::size_t>(rank)].cut; }
     /// What came for ranks after their end, but for signs of life.
     [[nodiscard]] const std::string& late() const { return late_; }
     /// Calls `act` once so many messages have been sent.

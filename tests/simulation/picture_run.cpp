@@ -114,6 +114,8 @@ void PictureRun::befall(const Fault& fault) {
     const auto rank = static_cast<std::size_t>(fault.rank);
     const Time until = world_.now() + fault.lasts;
     outcome_.last_fault = std::max(outcome_.last_fault, fault.passes() ? until : world_.now());
+    may_end_ = may_end_ || !fault.passes();
+    if (fault.passes()) silent_ += fault.lasts;
     switch (fault.kind) {
         case Fault::Kind::stop:
             return world_.stop(fault.rank, until);
@@ -184,9 +186,7 @@ void PictureRun::lead(RankLink& link) {
     };
     while (!all_done() && !stop_[0].requested()) take_some();
     link.dismiss();
-    const auto told = [this] {
-        return std::count(reports_.begin() + 1, reports_.end(), 0) == 0;
-    };
+    const auto told = [this] { return std::count(reports_.begin() + 1, reports_.end(), 0) == 0; };
     while (!told() && !stop_[0].requested()) take_some();
 }
 
@@ -274,7 +274,10 @@ void PictureRun::trace_on_thread(RankLink& link) {
 void PictureRun::trace_block(RankLink& link, const JobBlock& work) {
     const Time time = world_.chance().up_to(plan_.longest_block);
     world_.sleep(time);
-    if (fails_[static_cast<std::size_t>(link.rank())]) throw std::runtime_error("cannot trace");
+    if (fails_[static_cast<std::size_t>(link.rank())]) {
+        outcome_.last_fault = std::max(outcome_.last_fault, world_.now());
+        throw std::runtime_error("cannot trace");
+    }
     Picture& picture = pictures_.at(work.job);
     for_pixels(work.block, plan_.width, [&](std::size_t i) {
         if (++picture.traced[i] > 1) complain("a pixel is traced twice");
@@ -310,13 +313,7 @@ void PictureRun::check_end() {
                                     [](const auto& one) { return one.second.done; });
     if (!network_.late().empty()) complain(network_.late() + " after a rank's end");
     if (!outcome_.ended) complain("it does not end");
-    bool may_end = false;
-    Time passing{};
-    for (const Fault& fault : plan_.faults) {
-        may_end = may_end || !fault.passes();
-        if (fault.passes()) passing += fault.lasts;
-    }
-    may_end = may_end || passing > kBorne;
+    const bool may_end = may_end_ || silent_ > kBorne;
     if (!may_end && !outcome_.finished)
         complain("it has not drawn the picture: " +
                  (outcome_.failures.empty() ? std::string("says nothing") : outcome_.failures[0]));

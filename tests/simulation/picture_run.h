@@ -49,7 +49,7 @@ struct Plan {
 
 /// Errors that are planted, to see that they are found.
 struct Planted {
-    Mishap mishap;              ///< null: none
+    Mishap mishap;               ///< null: none
     bool forgets_known = false;  ///< the master does not pass on one of the blocks that it kept
     bool never_loses_patience = false;  ///< nobody watches others' silence
 };
@@ -59,8 +59,8 @@ using Disk = std::map<int, std::vector<BlockPixels>>;
 
 /// How a run ended, and what it did.
 struct Outcome {
-    bool ended = false;     ///< before the world's time was over
-    bool finished = false;  ///< with all pictures, on all ranks
+    bool ended = false;                 ///< before the world's time was over
+    bool finished = false;              ///< with all pictures, on all ranks
     std::vector<std::string> failures;  ///< that ranks told
     std::string wrong;                  ///< "": nothing
     Time end{}, last_fault{};
@@ -106,11 +106,13 @@ class PictureRun {
     Network network_;
     Topology topology_;
     std::shared_ptr<WorldThreads> threads_;
-    std::vector<StopFlag> stop_;   ///< by rank
-    std::vector<bool> fails_;      ///< by rank: see Fault::Kind::fail
+    std::vector<StopFlag> stop_;  ///< by rank
+    std::vector<bool> fails_;     ///< by rank: see Fault::Kind::fail
     std::map<JobId, Picture> pictures_;
-    std::vector<int> reports_;     ///< by rank
-    int left_ = 0;                 ///< ranks that have returned
+    std::vector<int> reports_;  ///< by rank
+    int left_ = 0;              ///< ranks that have returned
+    bool may_end_ = false;      ///< something has befallen a rank that no run has to bear
+    Time silent_{};             ///< how long ranks were, one after the other
     Outcome outcome_;
 };
 

@@ -39,16 +39,17 @@ T one_of(Chance& chance, std::initializer_list<T> list) {
 Fault some_fault(Chance& chance, const Plan& plan) {
     using Kind = Fault::Kind;
     Fault fault;
-    fault.kind = one_of(chance, {Kind::stop, Kind::stop, Kind::stop, Kind::unplug, Kind::unplug,
-                                 Kind::kill, Kind::kill, Kind::cut, Kind::cut, Kind::cut,
-                                 Kind::fail, Kind::interrupt});
+    fault.kind =
+        one_of(chance, {Kind::stop, Kind::stop, Kind::stop, Kind::unplug, Kind::unplug, Kind::kill,
+                        Kind::kill, Kind::cut, Kind::cut, Kind::cut, Kind::fail, Kind::interrupt});
     fault.rank = chance.below(plan.ranks);
     // Where much happens, or where nothing does.
     if (chance.percent(70))
         fault.message = 1 + static_cast<std::uint64_t>(chance.below(200));
     else
         fault.time = chance.up_to(20 * (plan.longest_delay + plan.longest_block));
-    if (fault.passes()) fault.lasts = chance.up_to(one_of<Time>(chance, {seconds(11), seconds(60)}));
+    if (fault.passes())
+        fault.lasts = chance.up_to(one_of<Time>(chance, {seconds(11), seconds(60)}));
     return fault;
 }
 
@@ -82,8 +83,8 @@ struct Story {
 /// A checkpoint that the master's death has cut off has all blocks but the last few.
 void lose_unwritten(Disk& disk, Chance& chance) {
     for (auto& [number, blocks] : disk)
-        blocks.resize(blocks.size() - std::min<std::size_t>(blocks.size(),
-                                                            static_cast<std::size_t>(chance.below(3))));
+        blocks.resize(blocks.size() - std::min<std::size_t>(blocks.size(), static_cast<std::size_t>(
+                                                                               chance.below(3))));
 }
 
 /// Runs until the pictures are drawn: what is left after one is for the next, on as many ranks as

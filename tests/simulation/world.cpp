@@ -95,9 +95,8 @@ void World::resume(std::size_t number) {
     ++thread.turn;
     running_ = number;
     swap_exceptions(thread.exceptions);
-    const bool over = thread.started
-                          ? fibers_.resume(number)
-                          : (thread.started = true, fibers_.start(number, thread.work));
+    const bool over = thread.started ? fibers_.resume(number)
+                                     : (thread.started = true, fibers_.start(number, thread.work));
     swap_exceptions(thread.exceptions);
     if (!over) return;
     thread.alive = false;

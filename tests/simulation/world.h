@@ -32,8 +32,8 @@ class Chance {
     [[nodiscard]] bool percent(int share) { return below(100) < share; }
     /// Uniform in 0 ... most.
     [[nodiscard]] Time up_to(Time most) {
-        return Time(static_cast<Time::rep>(random_() %
-                                           static_cast<std::uint64_t>(most.count() + 1)));
+        return Time(
+            static_cast<Time::rep>(random_() % static_cast<std::uint64_t>(most.count() + 1)));
     }
     [[nodiscard]] std::uint64_t number() { return random_(); }
 
@@ -117,7 +117,7 @@ class World {
     Time now_{};
     std::vector<Process> processes_;
     std::vector<std::unique_ptr<Thread>> all_;  ///< by fiber
-    std::vector<Event> events_;  ///< a heap
+    std::vector<Event> events_;                 ///< a heap
     std::size_t running_ = 0;
     int threads_ = 0;
 };
