@@ -77,7 +77,7 @@ Network::Network(World& world, Time longest)
     : world_(world),
       longest_(longest),
       ranks_(static_cast<std::size_t>(world.ranks())),
-      last_(ranks_.size() * ranks_.size()) {}
+      ways_(ranks_.size() * ranks_.size()) {}
 
 std::unique_ptr<Communicator> Network::end(int rank) {
     return std::make_unique<SimulatedCommunicator>(world_, *this, rank);
@@ -114,18 +114,21 @@ void Network::send(Packet packet) {
 }
 
 void Network::carry(int from, int to, std::function<void()> arrive) {
-    Time& last =
-        last_[static_cast<std::size_t>(from) * ranks_.size() + static_cast<std::size_t>(to)];
-    last = std::max(last, world_.now() + world_.chance().up_to(longest_));
-    arrive_at(last, from, to, std::move(arrive));
+    Way& way = way_between(from, to);
+    way.last = std::max(way.last, world_.now() + world_.chance().up_to(longest_));
+    way.messages.push_back(std::move(arrive));
+    arrive_at(way.last, from, to);
 }
 
-void Network::arrive_at(Time when, int from, int to, std::function<void()> arrive) {
-    world_.at(when, [this, from, to, arrive = std::move(arrive)] {
-        if (is_cut(from) || is_cut(to)) return;
+/// The way's first message, that is: of two that arrive at one time.
+void Network::arrive_at(Time when, int from, int to) {
+    world_.at(when, [this, from, to] {
         const Time later = std::max(rank_of(from).unplugged_until, rank_of(to).unplugged_until);
-        if (later > world_.now()) return arrive_at(later, from, to, arrive);
-        arrive();
+        if (later > world_.now()) return arrive_at(later, from, to);
+        Way& way = way_between(from, to);
+        const std::function<void()> arrive = std::move(way.messages.front());
+        way.messages.pop_front();
+        if (!is_cut(from) && !is_cut(to)) arrive();
     });
 }
 

@@ -59,6 +59,10 @@ class Network {
         std::deque<Communicator::Packet> inbox;
         std::deque<std::string> broadcasts;
     };
+    struct Way {
+        Time last{};  ///< arrival
+        std::deque<std::function<void()>> messages;
+    };
     struct Moment {
         std::uint64_t messages = 0;
         std::function<void()> act;
@@ -66,14 +70,17 @@ class Network {
     [[nodiscard]] Rank& rank_of(int rank) { return ranks_[static_cast<std::size_t>(rank)]; }
     /// Calls `arrive` when what `from` sends `to` now does, after all that it has sent it before.
     void carry(int from, int to, std::function<void()> arrive);
-    void arrive_at(Time when, int from, int to, std::function<void()> arrive);
+    void arrive_at(Time when, int from, int to);
+    [[nodiscard]] Way& way_between(int from, int to) {
+        return ways_[static_cast<std::size_t>(from) * ranks_.size() + static_cast<std::size_t>(to)];
+    }
     void send(Packet packet);
     void deliver(const Packet& packet);
 
     World& world_;
     Time longest_;
     std::vector<Rank> ranks_;
-    std::vector<Time> last_;  ///< arrival, by rank from and to
+    std::vector<Way> ways_;  ///< by rank from and to
     std::vector<Moment> moments_;
     Mishap mishap_;
     std::string late_;
