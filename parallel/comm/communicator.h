@@ -4,7 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "core/math/function_ref.h"
 
 namespace lightwalk {
 
@@ -41,8 +44,13 @@ class Communicator {
     /// Ends a wait(). From any thread.
     virtual void wake() = 0;
 
-    /// Rank 0's bytes, on every rank: all must call it, in the same order. Waits for rank 0.
-    [[nodiscard]] virtual std::string broadcast(std::string bytes) = 0;
+    /// Rank 0's bytes, on every rank: all must call it, in the same order. Waits for rank 0, and
+    /// calls `meanwhile` now and then while it does.
+    [[nodiscard]] virtual std::string broadcast(std::string bytes,
+                                                FunctionRef<void()> meanwhile) = 0;
+    [[nodiscard]] std::string broadcast(std::string bytes) {
+        return broadcast(std::move(bytes), [] {});
+    }
 
     /// Waits until all that was sent has left, so that the rank may end.
     virtual void flush() = 0;

@@ -54,7 +54,7 @@ class MemoryCommunicator final : public Communicator {
         change(rank_, [](Inbox& inbox) { inbox.woken = true; });
     }
 
-    [[nodiscard]] std::string broadcast(std::string bytes) override {
+    [[nodiscard]] std::string broadcast(std::string bytes, FunctionRef<void()> meanwhile) override {
         if (rank_ == 0) {
             for (int to = 1; to < size(); ++to)
                 change(to, [&](Inbox& inbox) { inbox.broadcasts.push_back(bytes); });
@@ -62,7 +62,13 @@ class MemoryCommunicator final : public Communicator {
         }
         Inbox& inbox = of(rank_);
         std::unique_lock lock(inbox.mutex);
-        inbox.changed.wait(lock, [&] { return !inbox.broadcasts.empty() || inbox.aborted; });
+        constexpr std::chrono::milliseconds kPatience{1};
+        const auto there = [&] { return !inbox.broadcasts.empty() || inbox.aborted; };
+        while (!inbox.changed.wait_for(lock, kPatience, there)) {
+            lock.unlock();
+            meanwhile();
+            lock.lock();
+        }
         if (inbox.aborted) throw Aborted{*inbox.aborted};
         std::string got = std::move(inbox.broadcasts.front());
         inbox.broadcasts.pop_front();

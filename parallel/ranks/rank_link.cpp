@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <exception>
 #include <map>
-#include <thread>
 #include <utility>
 
 namespace lightwalk {
@@ -43,6 +42,7 @@ RankLink::RankLink(Communicator& communicator, const Topology& topology,
                    const RankSettings& settings, std::string program, TakeFailure failed,
                    bool keep_spans)
     : communicator_(communicator),
+      threads_(settings.threads),
       topology_(topology),
       program_(std::move(program)),
       host_(communicator.host()),
@@ -51,7 +51,9 @@ RankLink::RankLink(Communicator& communicator, const Topology& topology,
       patience_(patience_of(topology)),
       roles_(communicator.rank(), topology, with_timed_encoding(settings, timeline_)),
       pulse_(communicator.rank(), communicator.size(), settings.pulse),
+      hosts_(static_cast<std::size_t>(communicator.size())),
       owners_(roles_.collectives().members(Collective::Group::owners)),
+      inbox_(threads_),
       cache_(settings.ambient_batch, [this](AmbientValues values) {
           post(Activity::exchange, [carried = std::move(values)](RankRoles& roles, Outbox& out) {
               roles.ambient_client()->offer(carried, out);
@@ -66,7 +68,7 @@ RankLink::RankLink(Communicator& communicator, const Topology& topology,
 
 void RankLink::run(FunctionRef<void()> body, const StopFlag& stop) {
     std::exception_ptr problem;
-    std::thread program([&] {
+    const auto program = [&] {
         try {
             guard([&] {
                 try {
@@ -85,23 +87,24 @@ void RankLink::run(FunctionRef<void()> body, const StopFlag& stop) {
         const std::lock_guard lock(mutex_);
         ended_ = true;
         communicator_.wake();
-    });
+    };
     const auto leave = [&] {
         {
             const std::lock_guard lock(mutex_);
             over_ = true;
         }
-        changed_.notify_all();
+        threads_->notify(changed_);
         inbox_.close();
-        program.join();
     };
-    try {
-        handle_messages(stop);
-    } catch (...) {
+    threads_->side_by_side(program, [&] {
+        try {
+            handle_messages(stop);
+        } catch (...) {
+            leave();
+            throw;
+        }
         leave();
-        throw;
-    }
-    leave();
+    });
     if (problem) std::rethrow_exception(problem);
 }
 
@@ -118,8 +121,8 @@ void RankLink::fail(const std::string& text) {
     constexpr std::chrono::seconds kPatience{1};
     post(0, Notice{Failure{host_, text}});
     std::unique_lock lock(mutex_);
-    if (!failure_) failure_ = {text, Clock::now() + kPatience};
-    changed_.wait(lock, [&] { return over_; });
+    if (!failure_) failure_ = {text, threads_->now() + kPatience};
+    threads_->wait_until(changed_, lock, [&] { return over_; });
     throw Aborted{kFailed};
 }
 
@@ -163,7 +166,7 @@ Collective RankLink::perform(Collective share) {
     share.round = operation.round++;
     post(0, std::move(share));
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return operation.result.has_value() || over_; });
+    threads_->wait_until(changed_, lock, [&] { return operation.result.has_value() || over_; });
     if (!operation.result) throw Aborted{kFailed};
     return *std::exchange(operation.result, std::nullopt);
 }
@@ -179,15 +182,18 @@ std::vector<std::uint64_t> RankLink::all_reduce(Collective::Group group,
 
 std::string RankLink::broadcast(std::string bytes) {
     post(Activity::handle, [this, own = std::move(bytes)](RankRoles&, Outbox&) {
-        std::string got = communicator_.broadcast(own);
+        std::string got = communicator_.broadcast(own, [this] {
+            (void)handle_arrived();
+            keep_pulse();
+        });
         {
             const std::lock_guard lock(mutex_);
             broadcast_ = std::move(got);
         }
-        changed_.notify_all();
+        threads_->notify(changed_);
     });
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return broadcast_.has_value() || over_; });
+    threads_->wait_until(changed_, lock, [&] { return broadcast_.has_value() || over_; });
     if (!broadcast_) throw Aborted{kFailed};
     return *std::exchange(broadcast_, std::nullopt);
 }
@@ -253,10 +259,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
 
 void RankLink::watch_others(std::vector<std::string> hosts) {
     if (communicator_.on_one_machine()) return;
-    post(Activity::handle, [this, all = std::move(hosts)](RankRoles&, Outbox&) {
-        hosts_ = all;
-        pulse_.start(Clock::now());
-    });
+    post(Activity::handle, [this, all = std::move(hosts)](RankRoles&, Outbox&) { hosts_ = all; });
     round_trip_ = shortest_round_trip(everyone_);
 }
 
@@ -281,7 +284,7 @@ void RankLink::flush_values() {
     posted_.push_back({Activity::exchange, [this](auto& roles, auto& out) { tell(roles, out); }});
     flushing_ = true;
     communicator_.wake();
-    changed_.wait(lock, [&] { return !flushing_ || over_; });
+    threads_->wait_until(changed_, lock, [&] { return !flushing_ || over_; });
     if (flushing_) throw Aborted{kFailed};
 }
 
@@ -291,7 +294,7 @@ std::deque<ProgramNews> RankLink::take_news(bool wait, const StopFlag& stop) {
     std::unique_lock lock(mutex_);
     while (wait && news_.empty() && !stop.requested()) {
         if (over_) throw Aborted{kFailed};
-        changed_.wait_for(lock, kPatience);
+        threads_->wait_for(changed_, lock, kPatience);
     }
     return std::exchange(news_, {});
 }
@@ -319,6 +322,7 @@ RankReport RankLink::report() const {
 
 void RankLink::handle_messages(const StopFlag& stop) {
     try {
+        if (!communicator_.on_one_machine()) pulse_.start(threads_->now());
         take_step(Activity::handle, [](RankRoles& roles, Outbox& out) { roles.begin(out); });
         microseconds wait = patience_.shortest;
         while (goes_on()) {
@@ -350,7 +354,7 @@ bool RankLink::goes_on() {
     {
         const std::lock_guard lock(mutex_);
         if (ended_) return false;
-        if (failure_ && Clock::now() > failure_->patience) failure = failure_;
+        if (failure_ && threads_->now() > failure_->patience) failure = failure_;
     }
     if (failure) end_run(rank(), host_, failure->text);
     return true;
@@ -370,7 +374,7 @@ bool RankLink::handle_arrived() {
     bool any = false;
     while (std::optional<Communicator::Packet> packet = communicator_.receive()) {
         any = true;
-        pulse_.heard(packet->from, Clock::now());
+        pulse_.heard(packet->from, threads_->now());
         Outbox out;
         out.messages.push_back({packet->from, rank(), decode_message(packet->bytes)});
         dispatch(std::move(out));
@@ -382,14 +386,14 @@ bool RankLink::handle_arrived() {
 /// told of others' all the same: rank 0 may keep a file of them.
 void RankLink::exchange_values_in_time() {
     constexpr std::chrono::seconds kOften{1};
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = threads_->now();
     if (now - exchanged_ < kOften || !cache_.is_open()) return;
     exchanged_ = now;
     take_step(Activity::exchange, [this](auto& roles, auto& out) { tell(roles, out); });
 }
 
 void RankLink::keep_pulse() {
-    const Pulse::Beat beat = pulse_.beat(Clock::now());
+    const Pulse::Beat beat = pulse_.beat(threads_->now());
     if (beat.lost) {
         const auto silence = std::chrono::duration_cast<std::chrono::seconds>(pulse_.silence());
         end_run(*beat.lost, hosts_[static_cast<std::size_t>(*beat.lost)],
@@ -415,7 +419,7 @@ void RankLink::note_flushed() {
         if (!flushing_ || !posted_.empty() || !roles_.ambient_client()->is_flushed()) return;
         flushing_ = false;
     }
-    changed_.notify_all();
+    threads_->notify(changed_);
 }
 
 void RankLink::take_step(Activity activity, const Step& step) {
@@ -464,7 +468,7 @@ void RankLink::hand_out(Outbox& out) {
             const std::lock_guard lock(mutex_);
             operations_[static_cast<std::size_t>(result.group)].result = std::move(result);
         }
-        changed_.notify_all();
+        threads_->notify(changed_);
     }
 }
 
@@ -480,7 +484,7 @@ void RankLink::push_news(ProgramNews news) {
         const std::lock_guard lock(mutex_);
         news_.push_back(std::move(news));
     }
-    changed_.notify_all();
+    threads_->notify(changed_);
 }
 
 void RankLink::end_run(int rank, const std::string& host, const std::string& text) {
@@ -489,7 +493,8 @@ void RankLink::end_run(int rank, const std::string& host, const std::string& tex
 }
 
 std::string RankLink::named(int rank, const std::string& host) const {
-    return program_ + ": rank " + std::to_string(rank) + " (" + host + "): ";
+    return program_ + ": rank " + std::to_string(rank) + (host.empty() ? "" : " (" + host + ")") +
+           ": ";
 }
 
 }  // namespace lightwalk

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -87,7 +88,8 @@ class RankLink {
     /// The same, of numbers, which are added up.
     [[nodiscard]] std::vector<std::uint64_t> all_reduce(Collective::Group group,
                                                         std::vector<std::uint64_t> numbers);
-    /// Rank 0's bytes, on every rank; called as all_gather is. This rank's messages wait meanwhile.
+    /// Rank 0's bytes, on every rank; called as all_gather is. Messages are served meanwhile, but
+    /// not what this rank's other threads post.
     [[nodiscard]] std::string broadcast(std::string bytes);
     /// The ranks that trace, for one of their tracing threads.
     [[nodiscard]] Group& workers() { return workers_; }
@@ -100,8 +102,7 @@ class RankLink {
     [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
 
     /// Every rank tells what it is about to compute with ("version", digests, ...), or why it
-    /// cannot. Where one cannot, or two differ, all throw AgreedProblem. From then on ranks on
-    /// several machines watch each other (Pulse).
+    /// cannot. Where one cannot, or two differ, all throw AgreedProblem.
     /// @param problem  "" is none
     /// @param advice   goes with it where others have a problem that rank 0 has not
     void agree(const std::vector<std::string>& facts, const std::string& problem,
@@ -223,6 +224,7 @@ class RankLink {
     [[nodiscard]] std::string named(int rank, const std::string& host) const;
 
     Communicator& communicator_;
+    std::shared_ptr<RankThreads> threads_;
     Topology topology_;
     std::string program_, host_;
     TakeFailure failed_;
@@ -230,7 +232,7 @@ class RankLink {
     Patience patience_;
     RankRoles roles_;
     Pulse pulse_;
-    std::vector<std::string> hosts_;  ///< by rank, once the pulse has started
+    std::vector<std::string> hosts_;  ///< by rank; "": not told yet
     std::vector<int> owners_;
     Workers workers_{*this};
     Rounds rounds_{*this};

@@ -1,12 +1,14 @@
 #pragma once
 // All that one rank is to the others: queue, sub-queue, worker, keeper of ambient values.
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "parallel/ranks/ambient_exchange.h"
 #include "parallel/ranks/collectives.h"
 #include "parallel/ranks/piece_codec.h"
 #include "parallel/ranks/pulse.h"
+#include "parallel/ranks/rank_threads.h"
 #include "parallel/ranks/timeline.h"
 #include "parallel/ranks/topology.h"
 #include "parallel/work_queue/outbox.h"
@@ -25,6 +27,7 @@ struct RankSettings {
     Pulse::Times pulse = {};  ///< of ranks on several machines
     bool rays = false;        ///< a stream of rays is traced
     int projectors = 0;  ///< so many of the workers own parts of a walk's frames, at most; 0: none
+    std::shared_ptr<RankThreads> threads = std::make_shared<RankThreads>();
 };
 
 /// How many of the workers own parts of frames: no more than `most`.

@@ -48,7 +48,7 @@ void TracerInbox::push(TracerNews news) {
                               }},
                    news);
     }
-    changed_.notify_all();
+    threads_->notify(changed_);
 }
 
 void TracerInbox::push_picture(PictureJob job) {
@@ -80,7 +80,7 @@ void TracerInbox::close() {
         const std::lock_guard lock(mutex_);
         closed_ = true;
     }
-    changed_.notify_all();
+    threads_->notify(changed_);
 }
 
 void TracerInbox::reopen() {
@@ -95,7 +95,7 @@ auto TracerInbox::wait_for(const StopFlag& stop, Take take) -> decltype(take()) 
     while (!stop.requested()) {
         if (auto found = take()) return found;
         if (closed_) break;
-        changed_.wait_for(lock, kSignalPatience);
+        threads_->wait_for(changed_, lock, kSignalPatience);
     }
     return std::nullopt;
 }

@@ -6,10 +6,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "parallel/block_renderer.h"
+#include "parallel/ranks/rank_threads.h"
 #include "parallel/stop_flag.h"
 #include "parallel/work_queue/outbox.h"
 
@@ -33,6 +35,9 @@ struct OpenPicture {
 
 class TracerInbox {
   public:
+    explicit TracerInbox(std::shared_ptr<RankThreads> threads = std::make_shared<RankThreads>())
+        : threads_(std::move(threads)) {}
+
     /// From any thread.
     void push(TracerNews news);
     /// No more work comes: whoever waits is told so.
@@ -72,6 +77,7 @@ class TracerInbox {
     template <class Take>
     auto wait_for(const StopFlag& stop, Take take) -> decltype(take());
 
+    std::shared_ptr<RankThreads> threads_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::deque<Item> items_;

@@ -126,13 +126,13 @@ class MpiCommunicator final : public Communicator {
         changed_.notify_one();
     }
 
-    [[nodiscard]] std::string broadcast(std::string bytes) override {
+    [[nodiscard]] std::string broadcast(std::string bytes, FunctionRef<void()> meanwhile) override {
         std::uint64_t size = bytes.size();
-        spread(&size, sizeof size);
+        spread(&size, sizeof size, meanwhile);
         bytes.resize(size);
         constexpr std::size_t kAtOnce = std::size_t{1} << 30;  // MPI counts with int
         for (std::size_t at = 0; at < bytes.size(); at += kAtOnce)
-            spread(bytes.data() + at, std::min(kAtOnce, bytes.size() - at));
+            spread(bytes.data() + at, std::min(kAtOnce, bytes.size() - at), meanwhile);
         return bytes;
     }
 
@@ -154,7 +154,7 @@ class MpiCommunicator final : public Communicator {
     };
 
     /// Asks now and then whether it has come: waiting inside MPI takes a whole core.
-    void spread(void* data, std::size_t size) {
+    void spread(void* data, std::size_t size, FunctionRef<void()> meanwhile) {
         constexpr std::chrono::microseconds kPatience{500};
         MPI_Request request = MPI_REQUEST_NULL;
         check(MPI_Ibcast(data, static_cast<int>(size), MPI_BYTE, 0, MPI_COMM_WORLD, &request),
@@ -162,6 +162,7 @@ class MpiCommunicator final : public Communicator {
         for (int done = 0;;) {
             check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
             if (done != 0) return;
+            meanwhile();
             std::this_thread::sleep_for(kPatience);
         }
     }

@@ -243,8 +243,8 @@ class DeadCommunicator final : public Communicator {
     }
     void wait(std::chrono::microseconds most) override { wire_->wait(most); }
     void wake() override { wire_->wake(); }
-    [[nodiscard]] std::string broadcast(std::string bytes) override {
-        return wire_->broadcast(std::move(bytes));
+    [[nodiscard]] std::string broadcast(std::string bytes, FunctionRef<void()> meanwhile) override {
+        return wire_->broadcast(std::move(bytes), meanwhile);
     }
     void flush() override {}
     [[noreturn]] void abort(int status) override {
@@ -269,8 +269,8 @@ class FarCommunicator final : public Communicator {
     [[nodiscard]] std::optional<Packet> receive() override { return wire_->receive(); }
     void wait(std::chrono::microseconds most) override { wire_->wait(most); }
     void wake() override { wire_->wake(); }
-    [[nodiscard]] std::string broadcast(std::string bytes) override {
-        return wire_->broadcast(std::move(bytes));
+    [[nodiscard]] std::string broadcast(std::string bytes, FunctionRef<void()> meanwhile) override {
+        return wire_->broadcast(std::move(bytes), meanwhile);
     }
     void flush() override {}
     [[noreturn]] void abort(int status) override {

@@ -94,8 +94,8 @@ class DelayingCommunicator final : public Communicator {
     }
     void wait(std::chrono::microseconds) override { wire_->wait(std::chrono::microseconds{50}); }
     void wake() override { wire_->wake(); }
-    [[nodiscard]] std::string broadcast(std::string bytes) override {
-        return wire_->broadcast(std::move(bytes));
+    [[nodiscard]] std::string broadcast(std::string bytes, FunctionRef<void()> meanwhile) override {
+        return wire_->broadcast(std::move(bytes), meanwhile);
     }
     void flush() override { wire_->flush(); }
     [[noreturn]] void abort(int status) override {
