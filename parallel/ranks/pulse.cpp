@@ -1,5 +1,7 @@
 #include "parallel/ranks/pulse.h"
 
+#include <algorithm>
+
 namespace lightwalk {
 
 void Pulse::start(Time now) {
@@ -17,8 +19,9 @@ Pulse::Beat Pulse::beat(Time now) {
     if (!started_) return beat;
     const Duration away = now - looked_;
     looked_ = now;
+    // What has come since this process runs again was heard now, not later.
     if (away > times_.every)
-        for (Time& time : heard_) time += away;
+        for (Time& time : heard_) time = std::min(now, time + away);
     if (now - told_ < times_.every) return beat;
     told_ = now;
     beat.due = true;

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "parallel/fibers/context_fibers.h"
@@ -60,7 +61,7 @@ Plan some_plan(Chance& chance, bool with_faults) {
     plan.masters = plan.ranks == 6 ? one_of(chance, {1, 2}) : 1;
     plan.slots = plan.variant == Variant::hybrid ? one_of(chance, {1, 2}) : 1;
     plan.ahead = one_of(chance, {0, 1, 2});
-    plan.block = one_of(chance, {8, 8, 8, 0, 16});
+    plan.block = one_of(chance, {8, 8, 8, 8, 8, 16, 16, 16, 16, 0});
     plan.stride = one_of(chance, {0, 1, 3});
     plan.pictures = one_of(chance, {1, 1, 1, 2});
     plan.longest_delay =
@@ -152,12 +153,14 @@ constexpr std::uint64_t kSeeds = 500;
 constexpr std::uint64_t kSeeds = 10000;
 #endif
 
-/// How many seeds it takes until the planted error is found; nothing: none of so many does.
-std::optional<std::uint64_t> seeds_to_find(const Planted& planted) {
+/// How many seeds it takes until the planted error is found, and as what; nothing: none of so many
+/// does.
+std::optional<std::pair<std::uint64_t, std::string>> seeds_to_find(const Planted& planted) {
     constexpr std::uint64_t kMost = 300;
     const auto fibers = make_context_fibers(kMostThreads);
     for (std::uint64_t seed = 0; seed < kMost; ++seed)
-        if (!play(seed, *fibers, planted).wrong.empty()) return seed + 1;
+        if (const Story story = play(seed, *fibers, planted); !story.wrong.empty())
+            return std::pair(seed + 1, story.wrong);
     return std::nullopt;
 }
 
@@ -207,7 +210,7 @@ TEST_CASE("simulation: a seed is played twice in the same way" * test::one_threa
 TEST_CASE("simulation: errors that are planted are found within some hundred seeds" *
           test::one_thread) {
     struct Error {
-        const char* what;
+        std::string what;
         Planted planted;
     };
     const auto is_alive = [](const Message& message) {
@@ -238,9 +241,9 @@ TEST_CASE("simulation: errors that are planted are found within some hundred see
         {"nobody loses patience", {nullptr, false, true}},
     };
     for (const Error& error : errors) {
-        const auto seeds = seeds_to_find(error.planted);
+        const auto found = seeds_to_find(error.planted);
         CAPTURE(error.what);
-        REQUIRE(seeds.has_value());
-        MESSAGE(error.what << ": found after " << *seeds << " seeds");
+        REQUIRE(found.has_value());
+        MESSAGE(error.what << ": found after " << found->first << " seeds: " << found->second);
     }
 }

@@ -50,6 +50,15 @@ TEST_CASE("pulse: who did not run for a while blames nobody for that") {
     CHECK(first.pass(5, {1, 2}) == 3);
 }
 
+TEST_CASE("pulse: who is heard first thing after such a while is watched from then on") {
+    Watch first(0);
+    CHECK_FALSE(first.pass(20, {1, 2, 3}));
+    first.now += Seconds(3600);
+    CHECK_FALSE(first.pass(1, {1, 2, 3}));
+    CHECK_FALSE(first.pass(28, {1, 2}));
+    CHECK(first.pass(5, {1, 2}) == 3);
+}
+
 TEST_CASE("pulse: nothing is told or watched before it starts") {
     Pulse pulse(0, 2, kTimes);
     for (int i = 0; i < 100; ++i) {
