@@ -199,10 +199,10 @@ class SceneServer {
     bool admit() {
         FileDescriptor asking(accept4(entrance_.socket(), nullptr, nullptr, SOCK_CLOEXEC));
         if (!asking) return false;
+        entrance_.note_use();
         if (spare_ && spare_->take(asking.get()))
             runs_.emplace(spare_->process(), std::move(asking));
         spare_.reset();
-        entrance_.note_use();
         return true;
     }
 
