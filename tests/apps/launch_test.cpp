@@ -43,20 +43,6 @@ std::vector<std::string> launch(const std::vector<std::string>& options,
     return words;
 }
 
-/// Ranks with this word on their command lines; the launcher has it, too.
-std::vector<int> ranks_with(const std::string& word) {
-    std::vector<int> found;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-        const std::string name = entry.path().filename().string();
-        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        const std::string words = read_whole(entry.path() / "cmdline");
-        if (words.starts_with(LIGHTWALK_PROGRAM) && words.find(word) != std::string::npos &&
-            words.find("launch") == std::string::npos)
-            found.push_back(std::stoi(name));
-    }
-    return found;
-}
-
 }  // namespace
 
 TEST_CASE("launch: a picture survives ranks that are killed, and is the same") {

@@ -106,6 +106,21 @@ inline bool comes_true(const std::function<bool()>& condition) {
     return true;
 }
 
+/// Processes that run the program with this word on their command lines, but for those that start
+/// others.
+inline std::vector<int> ranks_with(const std::string& word) {
+    std::vector<int> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        const std::string words = read_whole(entry.path() / "cmdline");
+        if (words.starts_with(LIGHTWALK_PROGRAM) && words.find(word) != std::string::npos &&
+            words.find("launch") == std::string::npos)
+            found.push_back(std::stoi(name));
+    }
+    return found;
+}
+
 /// Whether there is more in a checkpoint than what it begins with.
 /// @param least  bytes
 inline bool holds_blocks(const std::string& checkpoint, std::uintmax_t least = 4000) {

@@ -225,24 +225,6 @@ TEST_CASE("render: a run with indirect light that is killed goes on from the val
     CHECK_FALSE(std::filesystem::exists(values));
 }
 
-namespace {
-
-/// Processes that run the program with this word on their command lines, but for those that start
-/// others.
-std::vector<int> ranks_with(const std::string& word) {
-    std::vector<int> found;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-        const std::string name = entry.path().filename().string();
-        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        const std::string words = read_whole(entry.path() / "cmdline");
-        if (words.starts_with(LIGHTWALK_PROGRAM) && words.find(word) != std::string::npos)
-            found.push_back(std::stoi(name));
-    }
-    return found;
-}
-
-}  // namespace
-
 TEST_CASE("render on ranks: a rank that is killed ends the run at once, and it can be resumed") {
     if (!have_mpi()) return;
     const TemporaryFolder folder;
