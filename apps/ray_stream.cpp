@@ -19,37 +19,53 @@ bool RayStream::skip(std::uint64_t rays) {
 }
 
 void RayStream::answer_all(Renderer& renderer, Take take, FunctionRef<void()> flush) {
+    answer_all(
+        std::span(&renderer, 1), [&](std::span<const std::string> bytes) { take(bytes.front()); },
+        flush);
+}
+
+void RayStream::answer_all(std::span<Renderer> renderers, TakeEach take,
+                           FunctionRef<void()> flush) {
     bool more = true, wanted = true;
     while (more || !lists_.empty()) {
         if (interrupt_flag().requested()) return;
         // Where there is nothing to read for, something else has to come.
-        const RayDemand demand = renderer.ray_demand(!(more && wanted));
+        const RayDemand demand = renderers.front().ray_demand(!(more && wanted));
         wanted = demand.lists > 0;
         if (demand.answered) {
-            if (!put_answer(renderer, take)) return;
+            if (!put_answer(renderers, take)) return;
         } else if (more && wanted) {
             more = read_batch(std::min(demand.rays, limits_.most));
-            if (more) give_batch(renderer, take, flush);
+            if (more) give_batch(renderers, take, flush);
         }
     }
     complete_ = true;
 }
 
-void RayStream::give_batch(Renderer& renderer, Take take, FunctionRef<void()> flush) {
+void RayStream::give_batch(std::span<Renderer> renderers, TakeEach take,
+                           FunctionRef<void()> flush) {
     const std::uint64_t first = read_ - queries_.size();
-    lists_.push_back(renderer.start(RayTask{std::move(queries_), first}));
+    std::vector<Ticket<RayBytes>>& tickets = lists_.emplace_back();
+    for (Renderer& renderer : renderers.first(renderers.size() - 1))
+        tickets.push_back(renderer.start(RayTask{queries_, first}));
+    tickets.push_back(renderers.back().start(RayTask{std::move(queries_), first}));
     if (!flush_due_) return;
-    while (!lists_.empty() && put_answer(renderer, take)) {
+    while (!lists_.empty() && put_answer(renderers, take)) {
     }
     flush();
 }
 
 /// Of the oldest list. False: stopped.
-bool RayStream::put_answer(Renderer& renderer, Take take) {
-    const std::optional<RayBytes> answer = renderer.finish(lists_.front());
+bool RayStream::put_answer(std::span<Renderer> renderers, TakeEach take) {
+    const std::vector<Ticket<RayBytes>> tickets = std::move(lists_.front());
     lists_.pop_front();
-    if (!answer) return false;
-    take(answer->bytes);
+    std::vector<std::string> answers;
+    for (std::size_t k = 0; k < renderers.size(); ++k) {
+        std::optional<RayBytes> answer = renderers[k].finish(tickets[k]);
+        if (!answer) return false;
+        answers.push_back(std::move(answer->bytes));
+    }
+    take(answers);
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class RayStream {
   public:
     /// Takes the answers to some rays; all together these are in the order of the rays.
     using Take = FunctionRef<void(const std::string& bytes)>;
+    /// Takes the answers of several renderers to the same rays, a string a renderer.
+    using TakeEach = FunctionRef<void(std::span<const std::string> bytes)>;
 
     explicit RayStream(NumberFormat format);
     void limit(const RayStreamLimits& limits) { limits_ = limits; }
@@ -33,6 +36,8 @@ class RayStream {
     /// interrupted.
     /// @param flush  is called where whoever sends the rays waits for the answers
     void answer_all(Renderer& renderer, Take take, FunctionRef<void()> flush);
+    /// The same, by each of several renderers of this process.
+    void answer_all(std::span<Renderer> renderers, TakeEach take, FunctionRef<void()> flush);
 
     /// Whether the input ended before the rays that were expected.
     [[nodiscard]] bool ended_early() const {
@@ -43,14 +48,14 @@ class RayStream {
     [[nodiscard]] const RayReader& reader() const { return reader_; }
 
   private:
-    void give_batch(Renderer& renderer, Take take, FunctionRef<void()> flush);
-    bool put_answer(Renderer& renderer, Take take);
+    void give_batch(std::span<Renderer> renderers, TakeEach take, FunctionRef<void()> flush);
+    bool put_answer(std::span<Renderer> renderers, TakeEach take);
     bool read_batch(std::size_t most);
 
     RayStreamLimits limits_;
     RayReader reader_;
     std::vector<RayQuery> queries_;
-    std::deque<Ticket<RayBytes>> lists_;  ///< that were started
+    std::deque<std::vector<Ticket<RayBytes>>> lists_;  ///< that were started, one a renderer
     std::uint64_t read_ = 0;
     int in_row_ = 0;
     bool flush_due_ = false, complete_ = false;

@@ -46,6 +46,12 @@ std::vector<OptionRow> record_rows(TraceCommand& c) {
             {"-y N", &c.y,
              "rows | picture height: stop after -x times -y rays; a resolution line goes before "
              "the records"},
+            {"--interval N", &c.interval,
+             "answer each ray N times, with random numbers (and a cache of indirect light) of its "
+             "own each: colours are the means, and behind each colour stand the half-widths of "
+             "95 % confidence intervals, by Student's t. Errors that all answers have in common, "
+             "as of a cache of low accuracy, are not in them",
+             With{.least = 2, .most = 100, .expected = "2 to 100 answers", .shown = ""}},
             {"-fXY", formats_option(c.formats),
              "formats of input and output: a text, f float, d double, and for output c RGBE; -fX: "
              "both (default aa)"}};

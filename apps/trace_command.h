@@ -18,6 +18,7 @@ struct TraceCommand {
     TreeSelection tree;         ///< -te -ti -tE -tI
     ColorOutput color = ColorOutput::rgb;
     int x = 0, y = 0;    ///< -x -y
+    int interval = 0;    ///< --interval: independent answers to each ray; 0: one, and no interval
     bool serve = false;  ///< --serve
     double idle = 600;   ///< --idle [s]
 };

@@ -37,6 +37,13 @@ struct RunStatistics {
 
     /// What a session's scene took, and what its cache holds.
     void add_session(const SceneSession& session);
+    /// The rays of another renderer of the same scene, and the values of its cache.
+    void add_work(const RunStatistics& other) {
+        rays += other.rays;
+        ambient += other.ambient;
+        ambient_values += other.ambient_values;
+        ambient_bytes += other.ambient_bytes;
+    }
 };
 
 /// As JSON.

@@ -60,6 +60,21 @@ Rgb coefficient(const Ray& ray) {
 
 }  // namespace
 
+void append_number(double value, NumberFormat format, std::string& output) {
+    if (format == NumberFormat::text) {
+        std::array<char, 32> text{};
+        const int size = std::snprintf(text.data(), text.size(), "%e\t", value);
+        output.append(text.data(), static_cast<std::size_t>(size));
+    } else if (format == NumberFormat::real64) {
+        const auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
+        output.append(bytes.data(), bytes.size());
+    } else {
+        const auto bytes =
+            std::bit_cast<std::array<char, sizeof(float)>>(static_cast<float>(value));
+        output.append(bytes.data(), bytes.size());
+    }
+}
+
 RayRecords::RayRecords(std::string_view letters, NumberFormat format, ColorOutput color)
     : letters_(letters), format_(format), color_(color) {
     if (letters.empty()) throw UsageError("option -o: empty output specification");
@@ -157,21 +172,6 @@ void RayRecords::append_field(char letter, const RayRecord& traced, const Scene&
             return append_number(traced.sensor ? ray.hit.t : ray.unreflected_path_length, output);
         default:
             output += "~\t";
-    }
-}
-
-void RayRecords::append_number(double value, std::string& output) const {
-    if (format_ == NumberFormat::text) {
-        std::array<char, 32> text{};
-        const int size = std::snprintf(text.data(), text.size(), "%e\t", value);
-        output.append(text.data(), static_cast<std::size_t>(size));
-    } else if (format_ == NumberFormat::real64) {
-        const auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
-        output.append(bytes.data(), bytes.size());
-    } else {
-        const auto bytes =
-            std::bit_cast<std::array<char, sizeof(float)>>(static_cast<float>(value));
-        output.append(bytes.data(), bytes.size());
     }
 }
 

@@ -25,6 +25,9 @@ struct RayRecord {
     bool sensor = false;  ///< the ray is an irradiance at a given point (-I) and has hit nothing
 };
 
+/// Appends a number of a record in one of the formats; rgbe has none for single numbers.
+void append_number(double value, NumberFormat format, std::string& output);
+
 class RayRecords {
   public:
     /// @param letters  the letters of -o; see the manual page rtrace(1):
@@ -56,7 +59,9 @@ class RayRecords {
   private:
     void append_field(char letter, const RayRecord& traced, const Scene& scene,
                       std::string& output) const;
-    void append_number(double value, std::string& output) const;
+    void append_number(double value, std::string& output) const {
+        lightwalk::append_number(value, format_, output);
+    }
     void append_vector(const Vec3& v, std::string& output) const;
     void append_color(const Rgb& color, std::string& output) const;
 

@@ -19,7 +19,7 @@ _OUTPUT = {"-o", "-z", "-S", "-t", "-pRGB", "-pXYZ", "-pY", "-pA", "-pc", "--exp
            "--quiet", "-defaults", "--help", "--version", "-w", "--fps", "-v"}
 _RANKS = {"--variant", "--scene-from", "--block", "--stride", "--masters", "--ambient-batch", "--timeline", "--projectors"}
 _SCENE = {"--allow-commands", "--stale"}
-_RAYS = {"-I", "-h", "-x", "-y", "-te", "-ti", "-tE", "-tI", "-m", "-M", "-b", "-bn", "-p", "-c", "-fo", "-r"}
+_RAYS = {"-I", "-h", "--interval", "-x", "-y", "-te", "-ti", "-tE", "-tI", "-m", "-M", "-b", "-bn", "-p", "-c", "-fo", "-r"}
 _LEFT_OUT = {"render": _OUTPUT | _RANKS | _SCENE | {"-e"}, "animate": _OUTPUT | _RANKS | _SCENE | {"-e"},
              "walk": (_OUTPUT - {"--fps"}) | _RANKS | _SCENE | {"-e", "--port", "--embed", "-vf"},
              "trace": _OUTPUT | _RANKS | _SCENE | _RAYS | {"-e", "-f"}, "contrib": _OUTPUT | _RANKS | _SCENE | _RAYS}
