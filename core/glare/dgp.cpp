@@ -7,7 +7,8 @@ namespace lightwalk {
 namespace {
 
 constexpr double kDegrees = 180 / kPi;
-constexpr double kLargestIndex = 16;    ///< where Guth's measurements end
+constexpr double kLargestIndex = 16;  ///< where Guth's measurements end
+constexpr double kOfLight = 5.87e-5, kOfContrast = 0.0918, kAdaptation = 1.87;  ///< of DGP
 constexpr double kBelowStretch = 1.15;  ///< of the height below the line of sight
 
 /// Guth's position index.
@@ -32,8 +33,16 @@ double position_index(const Vec3& direction, const Camera& camera) {
 }
 
 double daylight_glare_probability(double ev, double sum) {
-    const double contrast = sum > 0 && ev > 0 ? sum / std::pow(ev, 1.87) : 0;
-    return std::min(5.87e-5 * ev + 0.0918 * std::log10(1 + contrast) + 0.16, 1.);
+    const double contrast = sum > 0 && ev > 0 ? sum / std::pow(ev, kAdaptation) : 0;
+    return std::min(kOfLight * ev + kOfContrast * std::log10(1 + contrast) + 0.16, 1.);
+}
+
+DgpSlopes dgp_slopes(double ev, double sum) {
+    if (daylight_glare_probability(ev, sum) >= 1) return {};
+    if (!(ev > 0)) return {kOfLight, 0};
+    const double contrast = sum / std::pow(ev, kAdaptation);
+    const double slope = kOfContrast / std::log(10) / (1 + contrast);
+    return {kOfLight - slope * kAdaptation * contrast / ev, slope / std::pow(ev, kAdaptation)};
 }
 
 double low_light_correction(double ev) {

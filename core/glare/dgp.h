@@ -25,6 +25,13 @@ namespace lightwalk {
 /// model for daylight environments with the use of CCD cameras", Energy and Buildings 38 (2006).
 [[nodiscard]] double daylight_glare_probability(double ev, double sum);
 
+/// How much DGP changes with each of the two; nothing where it is at its most.
+struct DgpSlopes {
+    double ev = 0;   ///< [1/lx]
+    double sum = 0;  ///< [m⁴/(cd² sr)]
+};
+[[nodiscard]] DgpSlopes dgp_slopes(double ev, double sum);
+
 /// Factor that corrects DGP for dim surroundings, in which the formula of 2006 overestimates glare:
 /// e^x / (1 + e^x), x = 0.024 Ev - 4; 0.9997 at 500 lx, 0.018 at 0 lx. Source: Wienold, "Dynamic
 /// daylight glare evaluation", Building Simulation 2009.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "core/glare/dgp.h"
@@ -97,22 +98,51 @@ GlareSource source_of(const SourceView& of, const SourcePixels& pixels, const Gl
     return source;
 }
 
-std::vector<GlareSource> sources_in(const SourceView& of, const GlareParams& params) {
+struct FoundSource {
+    GlareSource source;
+    SourcePixels pixels;
+};
+
+/// The worst first.
+std::vector<FoundSource> sources_in(const SourceView& of, const GlareParams& params) {
     SourcePixels all(of.field.pixels.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     const SourcePixels bright = brighter(of.field, all, params.threshold);
-    std::vector<GlareSource> sources;
+    std::vector<FoundSource> found;
+    const auto add = [&](SourcePixels& pixels, bool peak) {
+        GlareSource source = source_of(of, pixels, params, peak);
+        found.push_back({std::move(source), std::move(pixels)});
+    };
     for (SourcePixels& pixels : merged(of.field, bright, params.merge_angle)) {
         std::erase_if(pixels,
                       [&](std::uint32_t i) { return of.field.pixels[i].luminance > params.peak; });
-        if (!pixels.empty()) sources.push_back(source_of(of, pixels, params, false));
+        if (!pixels.empty()) add(pixels, false);
     }
     const SourcePixels peaks = brighter(of.field, bright, params.peak);
-    for (const SourcePixels& pixels : merged(of.field, peaks, params.merge_angle))
-        sources.push_back(source_of(of, pixels, params, true));
-    std::stable_sort(sources.begin(), sources.end(),
-                     [](const GlareSource& a, const GlareSource& b) { return a.glare > b.glare; });
+    for (SourcePixels& pixels : merged(of.field, peaks, params.merge_angle)) add(pixels, true);
+    std::stable_sort(found.begin(), found.end(), [](const FoundSource& a, const FoundSource& b) {
+        return a.source.glare > b.source.glare;
+    });
+    return found;
+}
+
+std::vector<GlareSource> without_pixels(std::vector<FoundSource> found) {
+    std::vector<GlareSource> sources;
+    for (FoundSource& one : found) sources.push_back(std::move(one.source));
     return sources;
+}
+
+void check_view(const View& view) {
+    if (is_whole_fisheye(view)) return;
+    throw InputError(std::string("glare: daylight glare probability needs a fisheye, -vta or "
+                                 "-vth -vh 180 -vv 180, not a view of type '") +
+                     view.type + "', " + std::to_string(view.horizontal) + " by " +
+                     std::to_string(view.vertical) + " degrees");
+}
+
+/// What a pixel adds to the vertical illuminance for each cd/m² [sr].
+double projected(const FieldPixel& pixel, const Camera& camera) {
+    return pixel.solid_angle * dot(pixel.direction, camera.forward());
 }
 
 }  // namespace
@@ -121,18 +151,13 @@ std::vector<GlareSource> find_glare_sources(const FieldPicture& picture, const C
                                             const GlareParams& params) {
     check(params);
     const VisualField field = visual_field(picture, camera);
-    return sources_in({field, camera, picture.width, picture.height}, params);
+    return without_pixels(sources_in({field, camera, picture.width, picture.height}, params));
 }
 
 GlareReport analyse_glare(const FieldPicture& picture, const View& view,
                           const GlareParams& params) {
     check(params);
-    if (!is_whole_fisheye(view)) {
-        throw InputError(std::string("glare: daylight glare probability needs a fisheye, -vta or "
-                                     "-vth -vh 180 -vv 180, not a view of type '") +
-                         view.type + "', " + std::to_string(view.horizontal) + " by " +
-                         std::to_string(view.vertical) + " degrees");
-    }
+    check_view(view);
     const Camera camera(view);
     const VisualField field = visual_field(picture, camera);
     GlareReport report;
@@ -140,18 +165,42 @@ GlareReport analyse_glare(const FieldPicture& picture, const View& view,
     for (const FieldPixel& pixel : field.pixels) {
         flux += pixel.luminance * pixel.solid_angle;
         solid_angle += pixel.solid_angle;
-        report.vertical_illuminance +=
-            pixel.luminance * pixel.solid_angle * dot(pixel.direction, camera.forward());
+        report.vertical_illuminance += pixel.luminance * projected(pixel, camera);
     }
     report.average_luminance = solid_angle > 0 ? flux / solid_angle : 0;
     report.dropped = field.dropped;
-    report.sources = sources_in({field, camera, picture.width, picture.height}, params);
+    report.sources =
+        without_pixels(sources_in({field, camera, picture.width, picture.height}, params));
     for (const GlareSource& source : report.sources) glare += source.glare;
     const double ev = report.vertical_illuminance;
     report.dgp = daylight_glare_probability(ev, glare);
     report.low_light_correction = low_light_correction(ev);
     report.within_assessments = within_assessments(report.dgp, ev);
     return report;
+}
+
+std::vector<GlareShare> glare_shares(const FieldPicture& picture, const View& view,
+                                     const GlareParams& params) {
+    check(params);
+    check_view(view);
+    const Camera camera(view);
+    const VisualField field = visual_field(picture, camera);
+    const std::vector<FoundSource> found =
+        sources_in({field, camera, picture.width, picture.height}, params);
+    double ev = 0, glare = 0;
+    for (const FieldPixel& pixel : field.pixels) ev += pixel.luminance * projected(pixel, camera);
+    for (const FoundSource& one : found) glare += one.source.glare;
+    const DgpSlopes slopes = dgp_slopes(ev, glare);
+    std::vector<GlareShare> shares;
+    for (const FieldPixel& pixel : field.pixels)
+        shares.push_back({pixel.place, pixel.luminance, slopes.ev * projected(pixel, camera)});
+    for (const auto& [source, pixels] : found) {
+        // Of L² ω / P², where L is the mean over the solid angle ω.
+        const double slope =
+            slopes.sum * 2 * source.luminance / (source.position_index * source.position_index);
+        for (const std::uint32_t i : pixels) shares[i].slope += slope * field.pixels[i].solid_angle;
+    }
+    return shares;
 }
 
 }  // namespace lightwalk

@@ -60,4 +60,16 @@ struct GlareReport {
 [[nodiscard]] GlareReport analyse_glare(const FieldPicture& picture, const View& view,
                                         const GlareParams& params = {});
 
+/// What a pixel's luminance is to the glare probability.
+struct GlareShare {
+    PixelPlace place;      ///< y from the bottom
+    double luminance = 0;  ///< [cd/m²]
+    double slope = 0;      ///< of analyse_glare().dgp, by that luminance [m²/cd]
+};
+
+/// Of all pixels before the eye: how much dgp changes with each, while sources have the same pixels
+/// and lie where they are. Arguments and errors as those of analyse_glare().
+[[nodiscard]] std::vector<GlareShare> glare_shares(const FieldPicture& picture, const View& view,
+                                                   const GlareParams& params = {});
+
 }  // namespace lightwalk

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace lightwalk {
 namespace {
@@ -40,6 +41,24 @@ MeanInterval mean_interval(std::span<const double> answers) {
     }
     const double error = std::sqrt(squares / (n - 1) / n);
     return {answers.front() + mean, student_t_95(static_cast<int>(answers.size()) - 1) * error};
+}
+
+MeanInterval mean_interval(std::span<const AnswerBatch> batches) {
+    int answers = 0, used = 0;
+    double first = 0, sum = 0, squares = 0;
+    for (const AnswerBatch& batch : batches) {
+        if (batch.count == 0) continue;
+        if (used++ == 0) first = batch.mean;
+        sum += batch.count * (batch.mean - first);
+        answers += batch.count;
+    }
+    const double mean = answers > 0 ? sum / answers : 0;
+    if (used < 2) return {first + mean, std::numeric_limits<double>::infinity()};
+    for (const AnswerBatch& batch : batches) {
+        const double off = batch.mean - first - mean;
+        squares += batch.count * off * off;
+    }
+    return {first + mean, student_t_95(used - 1) * std::sqrt(squares / (used - 1) / answers)};
 }
 
 }  // namespace lightwalk

@@ -23,4 +23,16 @@ struct MeanInterval {
 /// @param answers  at least 2; one that is not finite makes the half-width so, too
 [[nodiscard]] MeanInterval mean_interval(std::span<const double> answers);
 
+/// Some of the answers to a question.
+struct AnswerBatch {
+    double mean = 0;
+    int count = 0;
+};
+
+/// The same where only the means of batches of answers are kept: the batches' spread takes the
+/// place of that of the answers. Batches without answers do not count.
+/// @return  an infinite half-width where fewer than two batches have any
+/// Source: the mean square between groups in an analysis of variance (Fisher 1925).
+[[nodiscard]] MeanInterval mean_interval(std::span<const AnswerBatch> batches);
+
 }  // namespace lightwalk

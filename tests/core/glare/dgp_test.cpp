@@ -95,3 +95,23 @@ TEST_CASE("DGP: classes and the range of the assessments") {
     CHECK_FALSE(within_assessments(0.3, 379));
     CHECK_FALSE(within_assessments(0.81, 9000));
 }
+
+TEST_CASE("dgp: its slopes are those of the formula, and none where it is at its most") {
+    for (const double ev : {50., 900., 5000.})
+        for (const double sum : {0., 1e4, 3e7}) {
+            CAPTURE(ev);
+            CAPTURE(sum);
+            const double e = 1e-4 * ev, s = 1e-4 * std::max(sum, 1.0);
+            const DgpSlopes slopes = dgp_slopes(ev, sum);
+            CHECK(slopes.ev == doctest::Approx((daylight_glare_probability(ev + e, sum) -
+                                                daylight_glare_probability(ev - e, sum)) /
+                                               (2 * e))
+                                   .epsilon(1e-5));
+            CHECK(slopes.sum == doctest::Approx((daylight_glare_probability(ev, sum + s) -
+                                                 daylight_glare_probability(ev, sum)) /
+                                                s)
+                                    .epsilon(1e-3));
+        }
+    CHECK(dgp_slopes(30000, 0).ev == 0);
+    CHECK(dgp_slopes(0, 0).sum == 0);
+}

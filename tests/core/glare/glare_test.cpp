@@ -338,3 +338,35 @@ TEST_CASE("glare: settings that mean nothing are refused") {
     upright.up = upright.direction;
     CHECK_THROWS_AS((void)analyse_glare({1, 1, one}, upright), InputError);
 }
+
+TEST_CASE(
+    "glare shares: dgp follows the luminance of a pixel as they say, of a source and beside") {
+    constexpr int kSide = 100;
+    for (const char type : {'a', 'h'}) {
+        CAPTURE(type);
+        const View view = fisheye_view(type);
+        std::vector<Rgb> picture =
+            disc_picture(kSide, view, 300, {{20, 30, 8, 9000}, {-30, -10, 6, 80000}});
+        const FieldPicture field{kSide, kSide, picture};
+        const std::vector<GlareShare> shares = glare_shares(field, view);
+        const auto dgp = [&] { return analyse_glare(field, view).dgp; };
+        double largest = 0;
+        for (std::size_t i = 0; i < shares.size(); i += 53) {
+            const GlareShare& share = shares[i];
+            Rgb& pixel = picture[static_cast<std::size_t>((kSide - 1 - share.place.y) * kSide +
+                                                          share.place.x)];
+            const Rgb before = pixel;
+            constexpr float kStep = .01f;
+            pixel = (1 + kStep) * before;
+            const double more = dgp();
+            pixel = (1 - kStep) * before;
+            const double less = dgp();
+            pixel = before;
+            const double slope = (more - less) / (2 * double{kStep} * share.luminance);
+            // Sources move a little with their light, which moves the position index.
+            CHECK(std::abs(share.slope - slope) < .1 * std::abs(slope) + 2e-12);
+            largest = std::max(largest, share.slope);
+        }
+        CHECK(largest > 1e-9);  // sources are among them
+    }
+}

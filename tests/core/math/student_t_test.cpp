@@ -79,3 +79,34 @@ TEST_CASE("intervals of means: equal answers leave none, large ones lose no digi
     const std::vector<double> two{1, 2};  // t s / sqrt(2), s = 1 / sqrt(2)
     CHECK(mean_interval(two).half_width == doctest::Approx(12.706205 / 2));
 }
+
+TEST_CASE("intervals of means: batches of one answer are answers, those of equal ones leave none") {
+    const std::vector<double> answers{3, 5, 4, 8};
+    const std::vector<AnswerBatch> batches{{3, 1}, {5, 1}, {0, 0}, {4, 1}, {8, 1}};
+    const MeanInterval wanted = mean_interval(answers), told = mean_interval(batches);
+    CHECK(told.mean == doctest::Approx(wanted.mean));
+    CHECK(told.half_width == doctest::Approx(wanted.half_width));
+    const std::vector<AnswerBatch> equal{{.1, 3}, {.1, 2}}, one{{.1, 7}, {0, 0}};
+    CHECK(mean_interval(equal).mean == .1);
+    CHECK(mean_interval(equal).half_width == 0);
+    CHECK(mean_interval(one).mean == .1);
+    CHECK(std::isinf(mean_interval(one).half_width));
+}
+
+TEST_CASE("intervals of means: of batches of different size 95 % hold the mean") {
+    constexpr int kTries = 20000;
+    int held = 0;
+    RandomStream random(5);
+    for (int i = 0; i < kTries; ++i) {
+        std::vector<AnswerBatch> batches;
+        for (const int count : {1, 1, 1, 2, 2, 2, 2, 9}) {
+            AnswerBatch& batch = batches.emplace_back();
+            batch.count = count;
+            // The sum of 12 uniform numbers is nearly normal, of variance 1.
+            for (int k = 0; k < 12 * count; ++k) batch.mean += (random.next() - .5) / count;
+        }
+        const MeanInterval interval = mean_interval(batches);
+        held += std::abs(interval.mean) <= interval.half_width ? 1 : 0;
+    }
+    CHECK(double(held) / kTries == doctest::Approx(.95).epsilon(.0077 / .95));
+}
