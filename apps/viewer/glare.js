@@ -1,6 +1,6 @@
 // Daylight glare probability (DGP) of the present view, and the glare sources that cause it.
 import { by_id, element } from "./dom.js";
-import { glare_word, percent, quantity } from "./words.js";
+import { glare_words, percent, rough, within_hundredths } from "./words.js";
 
 export class Glare {
     /** @param on  {changed()}: called when the value or the sources are new */
@@ -21,24 +21,26 @@ export class Glare {
         this.on_.changed();
     }
 
-    answer({ id, done, dgp, sources }) {
+    answer({ id, done, dgp, dgp_95, sources }) {
         if (id !== this.id) return;
         this.sources = sources || [];
         this.waiting_ = done < 1;
         const words = [];
-        if (Number.isFinite(dgp))
+        if (done >= 1 && Number.isFinite(dgp)) {
+            const value = [`DGP ${dgp.toFixed(2)}`, within_hundredths(dgp_95)];
             words.push(
-                element("strong", { textContent: `DGP ${dgp.toFixed(2)}` }),
-                glare_word(dgp),
+                element("strong", { textContent: value.filter(Boolean).join(" ") }),
+                glare_words(dgp, dgp_95),
             );
+        }
         if (this.sources.length > 0)
             words.push(` · ${this.sources.length} source${this.sources.length > 1 ? "s" : ""}`);
-        if (done < 1) words.push(` · ${percent(done)}`);
+        if (done < 1) words.push(`Looking around… ${percent(done)}`);
         by_id("glare").replaceChildren(...words);
         by_id("glare").title = this.sources
             .map(
                 (s) =>
-                    `${quantity(s.luminance)} cd/m², ${quantity(s.solid_angle)} sr, position index ${quantity(s.position_index)}`,
+                    `≈ ${rough(s.luminance)} cd/m², ${rough(s.solid_angle)} sr, position index ${rough(s.position_index)}`,
             )
             .join("\n");
         this.on_.changed();

@@ -50,6 +50,28 @@ export function statistics({ values }) {
     return { count: counted.length, mean, min, max, uniformity: min / mean, diversity: min / max };
 }
 
+/**
+ * The same figures as far as an `isolux` message tells them, which it does when it is final: with `half`, how far the 95 % interval of each
+ * reaches to both sides. A ratio's is that of numbers that are independent of each other.
+ */
+export function told_figures(grid, message) {
+    const figures = statistics(grid);
+    if (!figures || !Number.isFinite(message.mean)) return figures;
+    const { mean, least: min, most: max } = message;
+    const shares = [message.mean_95 / mean, message.least_95 / min, message.most_95 / max];
+    const ratio = (a, b, share_a, share_b) => [a / b, (a / b) * Math.hypot(share_a, share_b)];
+    const [uniformity, uniformity_95] = ratio(min, mean, shares[1], shares[0]);
+    const [diversity, diversity_95] = ratio(min, max, shares[1], shares[2]);
+    const half = {
+        mean: message.mean_95,
+        min: message.least_95,
+        max: message.most_95,
+        uniformity: uniformity_95,
+        diversity: diversity_95,
+    };
+    return { count: figures.count, mean, min, max, uniformity, diversity, half };
+}
+
 /** Round illuminances between the least and the largest one, in steps of 1, 2 or 5 times a power of ten [lx]. */
 export function levels_of({ min, max }) {
     if (!(max > min)) return [];

@@ -1,17 +1,18 @@
 // Isolux: the plane that is asked about, its figures, and what is drawn of it over the picture.
 import { by_id, element } from "./dom.js";
 import { contours_of, grid_table, read_grid, sensor_points, spacing_of } from "./isolux.js";
-import { statistics, trace_command } from "./isolux.js";
+import { told_figures, trace_command } from "./isolux.js";
 import { notice } from "./notices.js";
 import { colour_text, palette_colour } from "./scale.js";
 import { label_place, path_of, strokes_of } from "./strokes.js";
-import { quantity, rough, round_number } from "./words.js";
+import { known, quantity, rough, round_number, within } from "./words.js";
 
 const kAgain = 500; // least time between two requests that repeat one [ms]
 const kHint = "Contours of illuminance on a plane, and how uniform it is.";
 const kHighest = 1e6; // of planes above the floor [m]
 
-const ratio = (x) => (x >= 0.1 ? x.toFixed(2) : rough(x));
+const ratio = (x, half) =>
+    [x >= 0.1 ? x.toFixed(2) : rough(x), within(x, half)].filter(Boolean).join(" ");
 
 export class IsoluxPanel {
     /**
@@ -27,7 +28,7 @@ export class IsoluxPanel {
         this.again_ = false; // whether it is to be asked again
         this.asked_ = 0; // when it was asked [ms]
         this.grid = null; ///< the newest one, as read_grid() returns it
-        this.figures = null; ///< see statistics()
+        this.figures = null; ///< see told_figures()
         this.done = 0; ///< share of the calculation
         this.outdated = ""; ///< why the grid is not of the present light
         this.contours_ = [];
@@ -86,7 +87,7 @@ export class IsoluxPanel {
         try {
             const grid = read_grid(message);
             this.done = message.done;
-            if (grid || message.done >= 1) this.take_(grid);
+            if (grid || message.done >= 1) this.take_(grid, message);
         } catch (error) {
             this.clear();
             this.say_(`No isolux: ${error.message}`);
@@ -94,9 +95,9 @@ export class IsoluxPanel {
         this.show_();
     }
 
-    take_(grid) {
+    take_(grid, message) {
         this.grid = grid;
-        this.figures = grid && statistics(grid);
+        this.figures = grid && told_figures(grid, message);
         this.contours_ = grid ? contours_of(grid) : [];
         this.outdated = "";
         this.on_.changed();
@@ -131,7 +132,7 @@ export class IsoluxPanel {
         this.again_ = false;
         this.done = 0;
         by_id("isolux-command").replaceChildren();
-        this.take_(null);
+        this.take_(null, null);
         this.show_();
     }
 
@@ -192,7 +193,7 @@ export class IsoluxPanel {
         for (const id of ["write-isolux", "write-points"]) by_id(id).disabled = !this.grid;
         this.say_(this.words_());
         if (!this.figures) return;
-        const { mean, min, max, uniformity, diversity, count } = this.figures;
+        const { mean, min, max, uniformity, diversity, count, half = {} } = this.figures;
         const line = (name, value) =>
             element(
                 "div",
@@ -202,11 +203,11 @@ export class IsoluxPanel {
             );
         by_id("isolux-figures").className = this.done < 1 || this.outdated ? "unsettled" : "";
         by_id("isolux-figures").replaceChildren(
-            line("Mean", `${quantity(mean)} lx`),
-            line("Minimum", `${quantity(min)} lx`),
-            line("Maximum", `${quantity(max)} lx`),
-            line("Uniformity (min/mean)", ratio(uniformity)),
-            line("Diversity (min/max)", ratio(diversity)),
+            line("Mean", known(mean, half.mean, "lx")),
+            line("Minimum", known(min, half.min, "lx")),
+            line("Maximum", known(max, half.max, "lx")),
+            line("Uniformity (min/mean)", ratio(uniformity, half.uniformity)),
+            line("Diversity (min/max)", ratio(diversity, half.diversity)),
             line("Points", `${count}, ${quantity(spacing_of(this.grid))} m apart`),
         );
     }

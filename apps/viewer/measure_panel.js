@@ -1,8 +1,10 @@
 // The list of measurements: pins on surfaces, and means over areas.
 import { by_id, element, remove_button } from "./dom.js";
-import { quantity } from "./words.js";
+import { quantity, within } from "./words.js";
 
-function row(item, lux, remove) {
+const kInterval = "95 % confidence interval: what chance has made of the calculation";
+
+function row(item, [lux, lux_95], remove) {
     const words = item.rect
         ? "mean over an area"
         : [item.surface, item.material].filter(Boolean).join(", ");
@@ -11,13 +13,18 @@ function row(item, lux, remove) {
         { textContent: item.name },
         element("small", { textContent: words, title: words }),
     );
-    const value = (x) => element("td", { textContent: Number.isFinite(x) ? quantity(x) : "–" });
+    const value = (x, half) =>
+        element(
+            "td",
+            { textContent: Number.isFinite(x) ? quantity(x) : "–" },
+            element("small", { textContent: within(x, half), title: kInterval }),
+        );
     return element(
         "tr",
         { className: item.settled < 1 ? "unsettled" : "" },
         name,
-        value(lux),
-        value(item.luminance),
+        value(lux, lux_95),
+        value(item.luminance, item.luminance_95),
         element(
             "td",
             {},
@@ -30,8 +37,10 @@ function row(item, lux, remove) {
 export function show_measurements(measurements) {
     const remove = (id) => measurements.remove(id);
     by_id("measured").replaceChildren(
-        ...measurements.probes.map((probe) => row(probe, probe.illuminance, remove)),
-        ...measurements.areas.map((area) => row(area, null, remove)),
+        ...measurements.probes.map((probe) =>
+            row(probe, [probe.illuminance, probe.illuminance_95], remove),
+        ),
+        ...measurements.areas.map((area) => row(area, [], remove)),
     );
     const none = measurements.count === 0;
     by_id("measurements").hidden = none;

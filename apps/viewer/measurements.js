@@ -7,13 +7,21 @@ const kAskAgain = 1000; // time between two requests for a mean while the pictur
 const next_name = (letter, list) =>
     letter + (1 + Math.max(0, ...list.map(({ name }) => Number(name.slice(1)) || 0)));
 
+/** Of an answer of the server the values: luminance [cd/m²], illuminance [lx], each with its half of a 95 % interval. */
+const values_of = ({ illuminance, illuminance_95, luminance, luminance_95 }) => ({
+    illuminance,
+    illuminance_95,
+    luminance,
+    luminance_95,
+});
+
 export class Measurements {
     /** @param changed  called after each change; its argument says whether pins were added or removed */
     constructor(changed) {
         this.changed_ = changed;
-        this.probes = []; ///< {id, name, position, normal, material, surface, illuminance, luminance, settled, time}
+        this.probes = []; ///< {id, name, position, normal, material, surface, settled, time, and values}
         this.last_id_ = 0; // ids are never reused, as answers to a removed one may still arrive
-        this.areas = []; ///< {id, name, rect, view, luminance, pixels, settled, time}
+        this.areas = []; ///< {id, name, rect, view, pixels, settled, time, and values}
     }
 
     get count() {
@@ -35,7 +43,7 @@ export class Measurements {
     /** Add a pin where a pick hit a surface. Returns the new probe, or nothing when there are too many. */
     pin(pick, time) {
         if (this.probes.length >= kMostProbes) return null;
-        const { position, normal, material, surface, illuminance, luminance } = pick;
+        const { position, normal, material, surface } = pick;
         const probe = {
             id: ++this.last_id_,
             name: next_name("P", this.probes),
@@ -43,8 +51,7 @@ export class Measurements {
             normal,
             material,
             surface,
-            illuminance,
-            luminance,
+            ...values_of(pick),
             settled: 0,
             time,
         };
@@ -85,18 +92,18 @@ export class Measurements {
 
     /** Take over the server's newest values of all pins. */
     update_probes({ probes, settled }, time) {
-        for (const { id, illuminance, luminance } of probes) {
-            const probe = this.probes.find((p) => p.id === id);
-            if (probe) Object.assign(probe, { illuminance, luminance, settled, time });
+        for (const answer of probes) {
+            const probe = this.probes.find((p) => p.id === answer.id);
+            if (probe) Object.assign(probe, values_of(answer), { settled, time });
         }
         this.changed_(false);
     }
 
     /** Take over the server's answer for an area; false when there is no such area. */
-    update_area({ id, luminance, pixels }, settled, time) {
+    update_area({ id, luminance, luminance_95, pixels }, settled, time) {
         const area = this.areas.find((a) => a.id === id);
         if (!area) return false;
-        Object.assign(area, { luminance, pixels, settled, time });
+        Object.assign(area, { luminance, luminance_95, pixels, settled, time });
         this.changed_(false);
         return true;
     }

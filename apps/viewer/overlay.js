@@ -1,7 +1,7 @@
 // Marks drawn over the picture: pins at their places in the scene, areas, sources of glare.
 import { shape } from "./dom.js";
 import { locate, same_picture } from "./view.js";
-import { quantity } from "./words.js";
+import { known, rough } from "./words.js";
 
 export class Overlay {
     constructor(svg) {
@@ -36,7 +36,7 @@ export class Overlay {
         if (!at.visible) return [];
         const [x, y] = this.pixels_(at.x, at.y);
         const value = Number.isFinite(probe.illuminance)
-            ? ` ${quantity(probe.illuminance)} lx`
+            ? ` ${known(probe.illuminance, probe.illuminance_95, "lx")}`
             : "";
         return [
             shape("circle", { cx: x, cy: y, r: 5, class: "pin" }),
@@ -52,10 +52,12 @@ export class Overlay {
         return ["halo", "mark"].map((name) => shape("path", { d: cross, class: name }));
     }
 
-    area_({ rect, name, luminance }) {
+    area_({ rect, name, luminance, luminance_95 }) {
         const [x0, y1] = this.pixels_(rect[0], rect[1]);
         const [x1, y0] = this.pixels_(rect[2], rect[3]);
-        const value = Number.isFinite(luminance) ? ` ${quantity(luminance)} cd/m²` : "";
+        const value = Number.isFinite(luminance)
+            ? ` ${known(luminance, luminance_95, "cd/m²")}`
+            : "";
         return this.box_([x0, y0, x1, y1], name + value);
     }
 
@@ -90,7 +92,7 @@ export class Overlay {
             shape(
                 "text",
                 { x: left, y: top > 24 ? top - 8 : top + 16 },
-                `${quantity(luminance)} cd/m²`,
+                `≈ ${rough(luminance)} cd/m²`,
             ),
         ];
     }

@@ -1,7 +1,7 @@
 // The card that shows luminance and illuminance at the point that was clicked.
 import { by_id, element, remove_button } from "./dom.js";
 import { locate } from "./view.js";
-import { place, quantity } from "./words.js";
+import { known, place, quantity, within } from "./words.js";
 
 const kApart = 18; // distance of the card from its point [CSS pixels]
 const kDock = 72; // height of the dock [CSS pixels]
@@ -23,7 +23,7 @@ export class Reading {
         this.pick = pick;
         const rows = pick.hit
             ? [
-                  ["Illuminance", `${quantity(pick.illuminance)} lx`],
+                  ["Illuminance", known(pick.illuminance, pick.illuminance_95, "lx")],
                   ["Distance", `${quantity(pick.distance)} m`],
                   ["Material", pick.material || "–"],
                   ["Surface", pick.surface || "–"],
@@ -33,7 +33,15 @@ export class Reading {
         const value = element(
             "p",
             { className: "value", textContent: quantity(pick.luminance) },
-            element("small", { textContent: pick.side ? `cd/m² · ${pick.side}` : "cd/m²" }),
+            element("small", {
+                textContent: [
+                    "cd/m²",
+                    within(pick.luminance, pick.luminance_95),
+                    pick.side && `· ${pick.side}`,
+                ]
+                    .filter(Boolean)
+                    .join(" "),
+            }),
         );
         const head = element(
             "header",

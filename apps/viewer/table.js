@@ -5,7 +5,9 @@ const kColumns = [
     "kind",
     "name",
     "illuminance_lx",
+    "illuminance_95_lx",
     "luminance_cd_m2",
+    "luminance_95_cd_m2",
     "x_m",
     "y_m",
     "z_m",
@@ -47,7 +49,9 @@ function probe_row(probe) {
         normal_y,
         normal_z,
         illuminance_lx: probe.illuminance,
+        illuminance_95_lx: probe.illuminance_95,
         luminance_cd_m2: probe.luminance,
+        luminance_95_cd_m2: probe.luminance_95,
         material: probe.material,
         surface: probe.surface,
         settled: probe.settled,
@@ -65,6 +69,7 @@ function area_row(area) {
         y_m,
         z_m,
         luminance_cd_m2: area.luminance,
+        luminance_95_cd_m2: area.luminance_95,
         left,
         bottom,
         right,
@@ -86,6 +91,7 @@ export function table_text(columns, rows) {
 /**
  * The table of all pins and means.
  * @param settings  {scene, ambient}: repeated in every row
+ * Numbers with 95 in their names: how far the 95 % interval of the value before reaches to both sides.
  * The position of a mean is that of the eye; its corners are shares of the picture.
  */
 export function measurement_table(probes, areas, settings) {

@@ -41,6 +41,22 @@ export function many(value) {
     return String(Math.round(value));
 }
 
+/**
+ * How well a value is known: "± 3 %" of it, rounded up, where `half` is how far its 95 % interval reaches to both sides. Nothing where no
+ * part of it is by chance, or where that is not told.
+ */
+export function within(value, half) {
+    const share = half / Math.abs(value);
+    if (!(half > 0) || !Number.isFinite(share) || share < 1e-6) return "";
+    const per_cent = Math.ceil(share * 100 - 1e-9);
+    const words = share < 0.01 ? "<1" : per_cent > 99 ? ">99" : String(per_cent);
+    return `±${kThin}${words}${kThin}%`;
+}
+
+/** A value with its unit and how well it is known: 430 lx ± 3 %. */
+export const known = (value, half, unit) =>
+    [`${quantity(value)} ${unit}`, within(value, half)].filter(Boolean).join(" ");
+
 export const place = (position) => position.map((x) => x.toFixed(2)).join(", ");
 
 /** An exposure in stops with its sign. */
@@ -53,6 +69,17 @@ export function glare_word(dgp) {
     if (dgp < 0.45) return "disturbing";
     return "intolerable";
 }
+
+/** The classes that a probability belongs to which is known to `half`: "perceptible to disturbing". */
+export function glare_words(dgp, half) {
+    const reach = half > 0 ? half : 0;
+    const [least, most] = [glare_word(dgp - reach), glare_word(dgp + reach)];
+    return least === most ? least : `${least} to ${most}`;
+}
+
+/** How well a number is known that is read to two decimals: "± 0.01", rounded up; nothing as within() has it. */
+export const within_hundredths = (half) =>
+    half > 1e-6 ? `±${kThin}${(Math.ceil(half * 100 - 1e-9) / 100).toFixed(2)}` : "";
 
 const kPhases = {
     filling: "drawing",

@@ -191,11 +191,7 @@ void RenderLoop::dim() {
     dimmed_ = true;
     shown_ = false;
     moved_ = dimmed_at_ = Clock::now();
-    ProbesReply reply;
-    for (const ProbePlace& probe : wish_.probes)
-        if (const std::optional<ProbeValue> value = answers_->mixed(probe))
-            reply.probes.push_back(*value);
-    reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
+    const ProbesReply reply = answers_->known();
     if (!reply.probes.empty()) client_inbox_.tell_all(walk_text(reply));
 }
 
@@ -434,7 +430,9 @@ void RenderLoop::reply(const WalkQuestion& question) {
                        tell(answers_->pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
                    },
                    [&](const MaterialRequest& material) { tell(describe(material)); },
-                   [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
+                   [&](const MeanRequest& mean) {
+                       tell(answers_->mean(mean, shown, *view_, frames_.options()));
+                   },
                    [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); },
                    [&](const PlanRequest& plan) {
                        plan_questions_.insert_or_assign(question.client, plan.id);
@@ -488,11 +486,9 @@ void RenderLoop::save_files(const InboxContents& inbox) const {
 }
 
 void RenderLoop::measure_probes() {
-    ProbesReply reply;
-    for (const ProbePlace& probe : wish_.probes)
-        reply.probes.push_back(answers_->measure(probe, view_->position));
-    reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
-    client_inbox_.tell_all(walk_text(reply));
+    constexpr double kBesidePictures = 0.02;  // [s]
+    const double seconds = has_work() ? kBesidePictures : kAtRest;
+    client_inbox_.tell_all(walk_text(answers_->measure(wish_.probes, view_->position, seconds)));
     measured_at_ = Clock::now();
 }
 

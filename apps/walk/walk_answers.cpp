@@ -1,16 +1,27 @@
 #include "apps/walk/walk_answers.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 
+#include "core/math/corrected_sum.h"
 #include "core/math/distance.h"
 #include "core/math/xyz.h"
 #include "core/scene/scene.h"
+#include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr int kPixelRays = 4;  // rays along each side of a pixel
+// Samples of each kind have random numbers of their own.
+constexpr std::uint32_t kOfPixels = 0, kOfPickedPoints = 1, kOfMeans = 2, kOfPins = 3,
+                        kOfSights = 4;
+constexpr int kPixelRays = 4;      // along each side of a pixel, of each sample of it
+constexpr int kPixelSamples = 8;   // they are apart in nothing but the chance in their light
+constexpr int kPointSamples = 16;  // of a picked point
+constexpr int kFirstSamples = 4;   // of a pin, before it is told
+constexpr int kPinSamples = 1024;  // of a pin in the end
 
 double luminance(const Rgb& radiance) {
     return double{kEfficacy} * static_cast<double>(brightness(radiance));
@@ -20,47 +31,46 @@ double luminance(const Rgb& radiance) {
 
 WalkAnswers::WalkAnswers(const Tracer& tracer, WarningSink& warnings,
                          std::shared_ptr<const LightGroups> groups)
-    : tracer_(tracer), context_(tracer, warnings) {
-    if (!groups) return;
-    sums_ = std::make_unique<GroupSums>(std::move(groups));
-    context_.contributions = context_.groups = sums_.get();
+    : tracer_(tracer), warnings_(warnings), groups_(std::move(groups)) {}
+
+void WalkAnswers::mix(LightMixture mixture) {
+    mixture_ = std::move(mixture);
+    if (sampler_) sampler_->mix(mixture_);
 }
 
-/// A ray's value, and what was told of it.
-void WalkAnswers::add(const Rgb& value, Light& sum) const {
-    sum.whole += value;
-    if (!sums_) return;
-    sum.groups.resize(sums_->size());
-    for (std::size_t g = 0; g < sums_->size(); ++g) sum.groups[g] += sums_->sums()[g];
-    sums_->clear();
+/// Made when somebody asks: most states of a scene that changes are not asked about.
+LightSampler& WalkAnswers::sampler() {
+    if (!sampler_) {
+        sampler_.emplace(tracer_, warnings_, groups_);
+        sampler_->mix(mixture_);
+    }
+    return *sampler_;
 }
 
-double WalkAnswers::shown(const Light& light) const {
-    return luminance(sums_ ? mixture_(light.whole, light.groups) : light.whole);
+MeanInterval WalkAnswers::shown(const LightBatches& light) const {
+    return light.interval([this](const SampledLight& part) { return sampler_->shown(part); });
 }
 
-void WalkAnswers::look(const Vec3& origin, const Vec3& direction, double limit, int sample,
-                       Light& sum) {
-    Ray ray = tracer_.primary(origin, direction, limit,
-                              RandomStream::of_pixel(0, 0, 0, static_cast<std::uint32_t>(sample)));
-    if (sums_) sums_->clear();
-    tracer_.trace(ray, context_);
-    add(ray.value, sum);
-}
-
-WalkAnswers::Light WalkAnswers::falling(const Vec3& point, const Vec3& normal) {
-    constexpr int kRays = 16;
-    Light light;
-    if (sums_) sums_->clear();
-    for (int i = 0; i < kRays; ++i)
-        add(tracer_
-                .irradiance(point, normal,
-                            RandomStream::of_pixel(1, 0, 0, static_cast<std::uint32_t>(i)),
-                            context_)
-                .value,
-            light);
-    light.scale(1.0f / kRays);
-    return light;
+MeanInterval WalkAnswers::pixel(const Camera& camera, double x, double y,
+                                const std::pair<double, double>& size) {
+    std::array<double, kPixelSamples> samples{};
+    constexpr int kRays = kPixelRays * kPixelRays;
+    std::uint32_t rays = 0;
+    for (double& sample : samples) {
+        int seen = 0;
+        for (int k = 0; k < kRays; ++k) {
+            const double h = x + ((k % kPixelRays + 0.5) / kPixelRays - 0.5) * size.first;
+            const int row = k / kPixelRays;
+            const double v = y + ((row + 0.5) / kPixelRays - 0.5) * size.second;
+            const std::optional<Camera::ViewRay> ray = camera.ray(h, v);
+            if (!ray) continue;
+            sample += sampler().shown(sampler().radiance(ray->origin, ray->direction, ray->limit,
+                                                         sampler().random(kOfPixels, rays++)));
+            ++seen;
+        }
+        sample /= std::max(seen, 1);
+    }
+    return mean_interval(samples);
 }
 
 PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
@@ -69,19 +79,7 @@ PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
     reply.id = request.id;
     const std::optional<Camera::ViewRay> middle = camera.ray(request.x, request.y);
     if (!middle) return reply;
-    Light seen;
-    int rays = 0;
-    for (int k = 0; k < kPixelRays * kPixelRays; ++k) {
-        const int column = k % kPixelRays, row = k / kPixelRays;
-        const double h = request.x + ((column + 0.5) / kPixelRays - 0.5) * pixel.first;
-        const double v = request.y + ((row + 0.5) / kPixelRays - 0.5) * pixel.second;
-        const std::optional<Camera::ViewRay> ray = camera.ray(h, v);
-        if (!ray) continue;
-        look(ray->origin, ray->direction, ray->limit, k, seen);
-        ++rays;
-    }
-    seen.scale(1.0f / static_cast<float>(std::max(rays, 1)));
-    reply.luminance = shown(seen);
+    reply.luminance = this->pixel(camera, request.x, request.y, pixel);
     const Scene& scene = tracer_.scene();
     const Hit hit = scene.geometry().intersect(
         {middle->origin, middle->direction, farthest_hit(middle->limit)});
@@ -90,49 +88,111 @@ PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
     reply.distance = hit.t;
     reply.position = hit.position;
     reply.normal = dot(hit.normal, middle->direction) > 0 ? -hit.normal : hit.normal;
-    reply.illuminance = shown(falling(reply.position, reply.normal));
+    LightBatches falling;
+    for (std::uint32_t i = 0; i < kPointSamples; ++i)
+        falling.add(sampler().irradiance(reply.position, reply.normal,
+                                         sampler().random(kOfPickedPoints, i)));
+    reply.illuminance = shown(falling);
     const std::optional<ModifierId> material = scene.material_of(hit.modifier);
     reply.material = material ? scene.modifier(*material).name : "void";
     reply.surface = scene.surface(hit.surface).name();
     return reply;
 }
 
-MeanReply WalkAnswers::mean(const MeanRequest& request, const LivePicture& picture) {
+MeanReply WalkAnswers::mean(const MeanRequest& request, const LivePicture& picture,
+                            const View& view, FrameOptions options) {
+    options.width = picture.width;
+    options.height = picture.height;
+    const Camera camera(view);
+    const PixelRays rays = rays_of_sample(camera, options, 0);
     const auto pixels = [](double from, double to, int size) {
         const int first = std::clamp(static_cast<int>(std::floor(from * size)), 0, size - 1);
         const int last = std::clamp(static_cast<int>(std::ceil(to * size)), first + 1, size);
         return std::pair{first, last};
     };
-    const auto [x0, x1] = pixels(request.x0, request.x1, picture.width);
-    const auto [y0, y1] = pixels(1 - request.y1, 1 - request.y0, picture.height);
-    double sum = 0;
-    for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x)
-            sum += luminance(picture.radiance[static_cast<std::size_t>(y) *
-                                                  static_cast<std::size_t>(picture.width) +
-                                              static_cast<std::size_t>(x)]);
-    const auto count = static_cast<std::uint64_t>(x1 - x0) * static_cast<std::uint64_t>(y1 - y0);
-    return {request.id, sum / static_cast<double>(count), count};
+    const auto x = pixels(request.x0, request.x1, picture.width);
+    const auto y = pixels(1 - request.y1, 1 - request.y0, picture.height);
+    const int width = x.second - x.first;
+    const auto count =
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(y.second - y.first);
+    std::vector<KnownTerm> terms;
+    terms.reserve(count);
+    for (int row = y.first; row < y.second; ++row) {
+        const std::size_t first =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width);
+        for (int column = x.first; column < x.second; ++column)
+            terms.push_back(
+                {1 / static_cast<double>(count),
+                 luminance(picture.radiance[first + static_cast<std::size_t>(column)])});
+    }
+    std::uint32_t samples = 0;
+    // Where the picture has looked: what a pixel shows besides is not what chance has made of it.
+    const auto sample = [&](std::size_t term) {
+        const int place = static_cast<int>(term);
+        const int column = x.first + place % width, row = y.first + place / width;
+        const std::optional<Camera::ViewRay> ray = rays(column, picture.height - 1 - row).ray;
+        return ray ? sampler().shown(sampler().radiance(ray->origin, ray->direction, ray->limit,
+                                                        sampler().random(kOfMeans, samples++)))
+                   : terms[term].value;
+    };
+    MeanInterval mean = corrected_sum(terms, sampler().random(kOfMeans, ~0u), sample);
+    mean.mean = std::max(mean.mean, 0.0);
+    return {request.id, mean, count};
 }
 
-ProbeValue WalkAnswers::measure(const ProbePlace& probe, const Vec3& eye) {
-    Measured measured{probe.position, probe.normal, falling(probe.position, probe.normal), {}};
-    const Vec3 way = probe.position - eye;
-    constexpr double kBeyond = 1.001;  // so that the ray reaches the pin's surface
-    const double far = length(way);
-    if (far > kEpsilon) look(eye, way * (1 / far), kBeyond * far, 0, measured.seen);
-    const ProbeValue value{probe.id, shown(measured.falling), shown(measured.seen)};
-    if (measured_.size() > kMostProbes) measured_.clear();  // of pins that are gone
-    if (sums_) measured_.insert_or_assign(probe.id, std::move(measured));
-    return value;
+ProbesReply WalkAnswers::measure(std::span<const ProbePlace> probes, const Vec3& eye,
+                                 double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                     std::chrono::duration<double>(seconds));
+    std::map<std::uint32_t, Pin> kept;
+    for (const ProbePlace& probe : probes) {
+        Pin& pin = kept[probe.id];
+        if (const auto before = pins_.find(probe.id); before != pins_.end())
+            pin = std::move(before->second);
+        if (pin.position != probe.position || pin.normal != probe.normal) pin = {};
+        pin.position = probe.position;
+        pin.normal = probe.normal;
+        if (pin.eye != eye) pin.seen.clear();
+        pin.eye = eye;
+    }
+    pins_ = std::move(kept);
+    bool more = true;
+    for (int round = 0; more && (round < kFirstSamples || Clock::now() < end); ++round) {
+        more = false;
+        for (auto& [id, pin] : pins_) more |= sample(pin);
+    }
+    return known();
 }
 
-std::optional<ProbeValue> WalkAnswers::mixed(const ProbePlace& probe) const {
-    const auto found = measured_.find(probe.id);
-    if (found == measured_.end() || found->second.position != probe.position ||
-        found->second.normal != probe.normal)
-        return std::nullopt;
-    return ProbeValue{probe.id, shown(found->second.falling), shown(found->second.seen)};
+bool WalkAnswers::sample(Pin& pin) {
+    if (pin.falling.count() < kPinSamples)
+        pin.falling.add(
+            sampler().irradiance(pin.position, pin.normal, random_of(kOfPins, pin.falling)));
+    if (pin.seen.count() < kPinSamples) {
+        const Vec3 way = pin.position - pin.eye;
+        constexpr double kBeyond = 1.001;  // so that the ray reaches the pin's surface
+        const double far = length(way);
+        pin.seen.add(far > kEpsilon ? sampler().radiance(pin.eye, way * (1 / far), kBeyond * far,
+                                                         random_of(kOfSights, pin.seen))
+                                    : SampledLight{});
+    }
+    return std::min(pin.falling.count(), pin.seen.count()) < kPinSamples;
+}
+
+RandomStream WalkAnswers::random_of(std::uint32_t kind, const LightBatches& light) {
+    return sampler().random(kind, static_cast<std::uint32_t>(light.count()));
+}
+
+ProbesReply WalkAnswers::known() const {
+    ProbesReply reply;
+    int fewest = kPinSamples;
+    for (const auto& [id, pin] : pins_) {
+        reply.probes.push_back({id, shown(pin.falling), shown(pin.seen)});
+        fewest = std::min({fewest, pin.falling.count(), pin.seen.count()});
+    }
+    reply.settled = static_cast<double>(fewest) / kPinSamples;
+    return reply;
 }
 
 std::optional<double> height_above_ground(const Geometry& geometry, const Vec3& eye,

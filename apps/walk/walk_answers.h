@@ -3,19 +3,21 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
-#include <vector>
 
-#include "core/trace/tracer.h"
-#include "core/transport/light_groups.h"
+#include "core/trace/light_sampler.h"
 #include "core/view/view.h"
 #include "io/net/walk_reply.h"
 #include "io/net/walk_request.h"
+#include "parallel/frame_options.h"
 #include "parallel/walk/live_walk.h"
 
 namespace lightwalk {
 
-/// Asks rays of the same light as the pictures.
+/// Asks rays of the same light as the pictures. Every number comes with its 95 % interval, which is
+/// made of samples that share nothing (LightSampler): it holds the light itself, not only what a
+/// cache of indirect light happens to say of it. For one thread.
 class WalkAnswers {
   public:
     /// All must outlive this.
@@ -24,47 +26,46 @@ class WalkAnswers {
                 std::shared_ptr<const LightGroups> groups = nullptr);
 
     /// Of the light groups in what follows.
-    void mix(LightMixture mixture) { mixture_ = std::move(mixture); }
+    void mix(LightMixture mixture);
 
     /// What is seen at a place of a view, and how much light falls on it, from the side that is
     /// seen.
     /// @param pixel  width and height of one, of the picture's [0 ... 1]: the luminance is its mean
     [[nodiscard]] PickedReply pick(const PickRequest& request, const Camera& camera,
                                    const std::pair<double, double>& pixel);
-    /// Mean luminance in a rectangle of a picture; pixels that it touches at their middle.
-    [[nodiscard]] static MeanReply mean(const MeanRequest& request, const LivePicture& picture);
-    /// Light at a pin; its luminance as seen from the eye.
-    [[nodiscard]] ProbeValue measure(const ProbePlace& probe, const Vec3& eye);
-    /// What it was measured as last, in the mixture of now: nothing is traced. Nothing where it was
-    /// not measured.
-    [[nodiscard]] std::optional<ProbeValue> mixed(const ProbePlace& probe) const;
+    /// Mean luminance in a rectangle of a picture; pixels that it touches at their middle. What
+    /// the picture has there is corrected by samples, see corrected_sum().
+    /// @param view, options  of that picture, but for its size
+    [[nodiscard]] MeanReply mean(const MeanRequest& request, const LivePicture& picture,
+                                 const View& view, FrameOptions options);
+    /// Light at all pins, and their luminances as seen from the eye. Each call adds samples to
+    /// those of pins that are where they were, for so long, until all have enough [s].
+    [[nodiscard]] ProbesReply measure(std::span<const ProbePlace> probes, const Vec3& eye,
+                                      double seconds);
+    /// What they were measured as last, in the mixture of now: nothing is traced.
+    [[nodiscard]] ProbesReply known() const;
 
   private:
-    /// A radiance or an irradiance.
-    struct Light {
-        Rgb whole;
-        std::vector<Rgb> groups;  ///< what each light group adds; empty: not kept
-        void scale(float factor) {
-            whole *= factor;
-            for (Rgb& value : groups) value *= factor;
-        }
+    struct Pin {
+        Vec3 position, normal, eye;
+        LightBatches falling;  ///< irradiance
+        LightBatches seen;     ///< radiance to the eye
     };
-    struct Measured {
-        Vec3 position, normal;
-        Light falling, seen;
-    };
-    void look(const Vec3& origin, const Vec3& direction, double limit, int sample, Light& sum);
-    /// Irradiance.
-    [[nodiscard]] Light falling(const Vec3& point, const Vec3& normal);
-    void add(const Rgb& value, Light& sum) const;
+    [[nodiscard]] LightSampler& sampler();
     /// [cd/m²] or [lx]
-    [[nodiscard]] double shown(const Light& light) const;
+    [[nodiscard]] MeanInterval shown(const LightBatches& light) const;
+    [[nodiscard]] MeanInterval pixel(const Camera& camera, double x, double y,
+                                     const std::pair<double, double>& size);
+    /// False: it has enough samples.
+    [[nodiscard]] bool sample(Pin& pin);
+    [[nodiscard]] RandomStream random_of(std::uint32_t kind, const LightBatches& light);
 
     const Tracer& tracer_;
-    TraceContext context_;
-    std::unique_ptr<GroupSums> sums_;  ///< null: no light groups
+    WarningSink& warnings_;
+    std::shared_ptr<const LightGroups> groups_;
+    std::optional<LightSampler> sampler_;  ///< nothing: nobody has asked yet
     LightMixture mixture_;
-    std::map<std::uint32_t, Measured> measured_;  ///< by the pin's id
+    std::map<std::uint32_t, Pin> pins_;  ///< by id
 };
 
 /// Height of the eye above what is below it; nothing where nothing is below [m].

@@ -1,8 +1,13 @@
 #include "apps/walk/walk_glare.h"
 
+#include <algorithm>
+
 #include "core/glare/glare.h"
 #include "core/glare/outline.h"
+#include "core/math/corrected_sum.h"
+#include "core/trace/light_sampler.h"
 #include "parallel/walk/live_frames.h"
+#include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
 namespace {
@@ -10,7 +15,8 @@ namespace {
 // Of the picture: a pixel is less than half of the sun, which would else be hit or missed by
 // chance.
 constexpr int kFieldSide = 800;
-constexpr double kToldEach = 0.1;  // of the work
+constexpr std::uint32_t kOfGlare = 5;  // random numbers, apart from those of other questions
+constexpr double kToldEach = 0.1;      // of the work
 
 /// All that lies before the eye.
 View field_of(const View& view) {
@@ -52,6 +58,7 @@ void WalkGlare::change(const Tracer& tracer, WarningSink& warnings,
                        const std::shared_ptr<const LightGroups>& groups) {
     tracer_ = &tracer;
     contexts_ = WorkerContexts(tracer, warnings, executor_.concurrency());
+    groups_ = groups;
     contexts_.sum_by(groups);
     picture_.reset();
     if (is_asked()) begin();
@@ -94,6 +101,36 @@ void WalkGlare::tell(GlareReply reply, ClientInbox& client_inbox) const {
     }
 }
 
+/// The picture's pixels, weighted by what they are to the probability, in place of the probability
+/// itself: it is as good as straight over what they are off by.
+MeanInterval WalkGlare::probability(std::span<const Rgb> radiance, double dgp) const {
+    const std::vector<GlareShare> shares =
+        glare_shares({kFieldSide, kFieldSide, radiance}, field_of(view_));
+    std::vector<KnownTerm> terms;
+    terms.reserve(shares.size());
+    double sum = 0;
+    for (const GlareShare& share : shares) {
+        terms.push_back({share.slope, share.luminance});
+        sum += share.slope * share.luminance;
+    }
+    LightSampler sampler(*tracer_, warnings_, groups_);
+    sampler.mix(mixture_);
+    const Camera field(field_of(view_));
+    const PixelRays rays = rays_of_sample(field, picture_options(), 0);
+    std::uint32_t count = 0;
+    // Where the picture has looked: what a pixel shows besides is not what chance has made of it.
+    const auto sample = [&](std::size_t term) {
+        const PixelPlace& pixel = shares[term].place;
+        const std::optional<Camera::ViewRay> ray = rays(pixel.x, pixel.y).ray;
+        return ray ? sampler.shown(sampler.radiance(ray->origin, ray->direction, ray->limit,
+                                                    sampler.random(kOfGlare, count++)))
+                   : shares[term].luminance;
+    };
+    MeanInterval interval = corrected_sum(terms, sampler.random(kOfGlare, ~0u), sample);
+    interval.mean = std::clamp(dgp + interval.mean - sum, 0.0, 1.0);
+    return interval;
+}
+
 GlareReply WalkGlare::evaluate() const {
     const std::vector<Rgb> radiance =
         turned_rows(std::span<const Rgb>(picture_->picture()), kFieldSide);
@@ -101,7 +138,7 @@ GlareReply WalkGlare::evaluate() const {
     const Camera camera(view_);
     GlareReply reply;
     reply.done = 1;
-    reply.dgp = report.dgp;
+    reply.dgp = probability(radiance, report.dgp);
     for (const GlareSource& source : report.sources) {
         GlareOutline outline;
         outline.luminance = source.luminance;

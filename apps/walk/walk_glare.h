@@ -3,6 +3,7 @@
 // and what it says.
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/walk/client_inbox.h"
@@ -21,7 +22,9 @@ class WalkGlare {
               const std::shared_ptr<const LightGroups>& groups = nullptr)
         : tracer_(&tracer),
           executor_(executor),
-          contexts_(tracer, warnings, executor.concurrency()) {
+          contexts_(tracer, warnings, executor.concurrency()),
+          warnings_(warnings),
+          groups_(groups) {
         if (groups) contexts_.sum_by(groups);
     }
     /// The scene is another one, of the same surfaces: what is asked is answered by it. What the
@@ -46,6 +49,8 @@ class WalkGlare {
         std::uint32_t id = 0;
     };
     [[nodiscard]] GlareReply evaluate() const;
+    /// Of a picture's, which begins at the top.
+    [[nodiscard]] MeanInterval probability(std::span<const Rgb> radiance, double dgp) const;
     void tell(GlareReply reply, ClientInbox& client_inbox) const;
 
     void begin();
@@ -53,6 +58,8 @@ class WalkGlare {
     const Tracer* tracer_;
     Executor& executor_;
     WorkerContexts contexts_;
+    WarningSink& warnings_;
+    std::shared_ptr<const LightGroups> groups_;  ///< null: none
     LightMixture mixture_;
     std::vector<Asked> asked_;
     View view_;

@@ -1,10 +1,17 @@
 #include "apps/walk/walk_isolux.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/math/corrected_sum.h"
+#include "core/trace/light_sampler.h"
 
 namespace lightwalk {
 namespace {
 
+constexpr std::uint32_t kOfPlanes = 6;  // random numbers, apart from those of other questions
+constexpr int kSamplesOfOne = 64;       // of the darkest point, and of the brightest one
 constexpr std::chrono::milliseconds kToldEvery{500};
 
 IsoluxReply isolux_reply(std::uint32_t id, const GridIlluminance& light) {
@@ -47,6 +54,7 @@ void WalkIsolux::change(const Tracer& tracer, WarningSink& warnings,
     sight_.emplace(tracer.scene(), tracer.options().back_faces_visible);
     contexts_ = WorkerContexts(tracer, warnings, executor_.concurrency());
     contexts_.sum_by(groups);
+    groups_ = groups;
     begin_anew();
 }
 
@@ -55,6 +63,41 @@ void WalkIsolux::begin_anew() {
         if (question.light) question.light->begin_anew();
         question.stride = 0;
     }
+}
+
+/// The mean is that of the grid, corrected by samples. The least and the largest value of many are
+/// what chance has made of them, too: there it is measured again.
+std::optional<IsoluxFigures> WalkIsolux::figures_of(const GridIlluminance& light) const {
+    const MeasuringGrid& grid = light.grid();
+    std::vector<KnownTerm> terms;
+    std::vector<Vec3> places;
+    const std::vector<float> values = light.values();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!std::isfinite(values[i])) continue;
+        const int at = static_cast<int>(i);
+        terms.push_back({1, static_cast<double>(values[i])});
+        places.push_back(grid.point(at % grid.columns, at / grid.columns));
+    }
+    if (terms.empty()) return std::nullopt;
+    for (KnownTerm& term : terms) term.weight = 1 / static_cast<double>(terms.size());
+    LightSampler sampler(*tracer_, warnings_, groups_);
+    sampler.mix(mixture_);
+    std::uint32_t count = 0;
+    const auto sample = [&](std::size_t term) {
+        return sampler.shown(
+            sampler.irradiance(places[term], grid.normal, sampler.random(kOfPlanes, count++)));
+    };
+    const auto again = [&](auto found) {
+        std::array<double, kSamplesOfOne> samples{};
+        for (double& value : samples)
+            value = sample(static_cast<std::size_t>(found - terms.begin()));
+        return mean_interval(samples);
+    };
+    const auto [least, most] = std::minmax_element(
+        terms.begin(), terms.end(),
+        [](const KnownTerm& a, const KnownTerm& b) { return a.value < b.value; });
+    return IsoluxFigures{corrected_sum(terms, sampler.random(kOfPlanes, ~0u), sample), again(least),
+                         again(most)};
 }
 
 void WalkIsolux::step(double seconds, const StopFlag& stop, ClientInbox& client_inbox) {
@@ -79,7 +122,9 @@ bool WalkIsolux::go_on(Question& question, ClientId client, double seconds, cons
     const Clock::time_point now = Clock::now();
     const bool finer = question.light->stride() != question.stride;
     if (!more || finer || now - question.told >= kToldEvery) {
-        client_inbox.tell(client, walk_text(isolux_reply(question.id, *question.light)));
+        IsoluxReply reply = isolux_reply(question.id, *question.light);
+        if (!more && !stop.requested()) reply.figures = figures_of(*question.light);
+        client_inbox.tell(client, walk_text(reply));
         question.told = now;
         question.stride = question.light->stride();
     }

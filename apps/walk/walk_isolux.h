@@ -25,7 +25,9 @@ class WalkIsolux {
           executor_(executor),
           task_runner_(executor),
           sight_(std::in_place, tracer.scene(), tracer.options().back_faces_visible),
-          contexts_(tracer, warnings, executor.concurrency()) {
+          contexts_(tracer, warnings, executor.concurrency()),
+          warnings_(warnings),
+          groups_(groups) {
         if (groups) contexts_.sum_by(groups);
     }
 
@@ -60,12 +62,15 @@ class WalkIsolux {
                              const StopFlag& stop, ClientInbox& client_inbox);
 
     void begin_anew();
+    [[nodiscard]] std::optional<IsoluxFigures> figures_of(const GridIlluminance& light) const;
 
     const Tracer* tracer_;
     Executor& executor_;
     ExecutorTaskRunner task_runner_;
     std::optional<PlanSight> sight_;  ///< always there; surveys refer to it
     WorkerContexts contexts_;
+    WarningSink& warnings_;
+    std::shared_ptr<const LightGroups> groups_;  ///< null: none
     LightMixture mixture_;
     std::map<ClientId, Question> questions_;
     ClientId turn_{};  ///< of the client that was answered last

@@ -97,6 +97,12 @@ Json or_null(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 
+/// A number, and how far its 95 % interval reaches to both sides under a name of its own.
+void put(Json& object, const std::string& name, const MeanInterval& interval) {
+    object[name] = interval.mean;
+    object[name + "_95"] = interval.half_width;
+}
+
 std::string base64(std::string_view bytes) {
     constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -178,30 +184,32 @@ std::string walk_text(const RoleReply& reply) {
 }
 
 std::string walk_text(const PickedReply& reply) {
-    return text_of({{"type", "picked"},
-                    {"id", reply.id},
-                    {"hit", reply.hit},
-                    {"luminance", reply.luminance},
-                    {"illuminance", reply.illuminance},
-                    {"distance", reply.distance},
-                    {"position", to_json(reply.position)},
-                    {"normal", to_json(reply.normal)},
-                    {"material", reply.material},
-                    {"surface", reply.surface}});
+    Json object{{"type", "picked"},
+                {"id", reply.id},
+                {"hit", reply.hit},
+                {"distance", reply.distance},
+                {"position", to_json(reply.position)},
+                {"normal", to_json(reply.normal)},
+                {"material", reply.material},
+                {"surface", reply.surface}};
+    put(object, "luminance", reply.luminance);
+    put(object, "illuminance", reply.illuminance);
+    return text_of(object);
 }
 
 std::string walk_text(const MeanReply& reply) {
-    return text_of({{"type", "mean"},
-                    {"id", reply.id},
-                    {"luminance", reply.luminance},
-                    {"pixels", reply.pixels}});
+    Json object{{"type", "mean"}, {"id", reply.id}, {"pixels", reply.pixels}};
+    put(object, "luminance", reply.luminance);
+    return text_of(object);
 }
 
 std::string walk_text(const ProbesReply& reply) {
     Json list = Json::array();
     for (const ProbeValue& probe : reply.probes) {
-        list.push_back(
-            {{"id", probe.id}, {"illuminance", probe.illuminance}, {"luminance", probe.luminance}});
+        Json object{{"id", probe.id}};
+        put(object, "illuminance", probe.illuminance);
+        put(object, "luminance", probe.luminance);
+        list.push_back(std::move(object));
     }
     return text_of({{"type", "probes"}, {"probes", list}, {"settled", reply.settled}});
 }
@@ -216,11 +224,9 @@ std::string walk_text(const GlareReply& reply) {
                         {"solid_angle", source.solid_angle},
                         {"position_index", source.position_index}});
     }
-    return text_of({{"type", "glare"},
-                    {"id", reply.id},
-                    {"done", reply.done},
-                    {"dgp", reply.dgp},
-                    {"sources", list}});
+    Json object{{"type", "glare"}, {"id", reply.id}, {"done", reply.done}, {"sources", list}};
+    put(object, "dgp", reply.dgp);
+    return text_of(object);
 }
 
 PlanReply plan_reply(const FloorPlan& plan) {
@@ -259,6 +265,10 @@ std::string walk_text(const IsoluxReply& reply) {
         for (unsigned shift = 0; shift < 32; shift += 8)
             bytes += static_cast<char>(std::bit_cast<std::uint32_t>(value) >> shift & 255);
     object["values"] = base64(bytes);
+    if (!reply.figures) return text_of(object);
+    put(object, "mean", reply.figures->mean);
+    put(object, "least", reply.figures->least);
+    put(object, "most", reply.figures->most);
     return text_of(object);
 }
 

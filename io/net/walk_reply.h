@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/student_t.h"
 #include "core/plan/floor_plan.h"
 #include "io/net/walk_request.h"
 
@@ -80,25 +81,25 @@ struct RoleReply {
 struct PickedReply {
     std::uint32_t id = 0;
     bool hit = false;
-    double luminance = 0;    ///< [cd/m²]
-    double illuminance = 0;  ///< [lx]
-    double distance = 0;     ///< [m]
+    MeanInterval luminance = {};    ///< [cd/m²]
+    MeanInterval illuminance = {};  ///< [lx]
+    double distance = 0;            ///< [m]
     Vec3 position, normal;
     std::string material, surface;
 };
 struct MeanReply {
     std::uint32_t id = 0;
-    double luminance = 0;  ///< [cd/m²]
+    MeanInterval luminance = {};  ///< [cd/m²]
     std::uint64_t pixels = 0;
 };
 struct ProbeValue {
     std::uint32_t id = 0;
-    double illuminance = 0;  ///< [lx]
-    double luminance = 0;    ///< [cd/m²]
+    MeanInterval illuminance = {};  ///< [lx]
+    MeanInterval luminance = {};    ///< [cd/m²]
 };
 struct ProbesReply {
     std::vector<ProbeValue> probes;
-    double settled = 0;  ///< progress of the picture's refinement; 1: values are final
+    double settled = 0;  ///< share of their samples that are traced; 1: values are final
 };
 struct GlareOutline {
     std::vector<std::pair<double, double>> outline;  ///< x, y as shares of the picture, 0 to 1
@@ -109,7 +110,7 @@ struct GlareOutline {
 struct GlareReply {
     std::uint32_t id = 0;
     double done = 0;  ///< progress, 0 to 1; dgp and sources are valid at 1
-    double dgp = 0;
+    MeanInterval dgp = {};
     std::vector<GlareOutline> sources;
 };
 struct PlanReply {
@@ -120,6 +121,10 @@ struct PlanReply {
     double z = 0;                 ///< of the section [m]
     std::string cells;            ///< see plan_reply
 };
+/// Of the points of a plane: their mean, and what is measured at the darkest and the brightest one.
+struct IsoluxFigures {
+    MeanInterval mean = {}, least = {}, most = {};  ///< [lx]
+};
 struct IsoluxReply {
     std::uint32_t id = 0;
     double done = 0;                 ///< progress, 0 to 1
@@ -128,6 +133,7 @@ struct IsoluxReply {
     Vec3 across = {}, along = {};    ///< to the next point of a row, and to the next row [m]
     Vec3 normal = {};                ///< unit, on the side where light is measured
     std::vector<float> values = {};  ///< by rows [lx]; not finite: the point does not count
+    std::optional<IsoluxFigures> figures = std::nullopt;  ///< once it is done
 };
 /// The answer but for its number: the plan's cells as bytes, in a zlib stream (RFC 1950), in
 /// base64. Throws std::bad_alloc where zlib finds no memory.

@@ -78,6 +78,8 @@ class LiveFrames {
     /// Share of the points that the last change() has kept.
     [[nodiscard]] double kept_points() const { return kept_; }
 
+    /// Of the frames.
+    [[nodiscard]] const FrameOptions& options() const { return options_; }
     /// Whether there is indirect light to be traced.
     [[nodiscard]] bool has_indirect() const { return indirect_ != nullptr; }
     /// Frames of this size from here on, and of this light: what was carried on is forgotten.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|clean|light|dimmed|changed|roles|mended|followed|rad_file|returning|slow|abuse|beside|ranks ...]
+    walk_server_test.py PROGRAM [rest|clean|light|intervals|dimmed|changed|roles|mended|followed|rad_file|returning|slow|abuse|beside|ranks ...]
 """
 import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -202,6 +202,49 @@ def isolux_as_traced(program, server, client):
     mean = sum(lux) / len(lux)
     worst = max(abs(values[k] - wanted) for k, wanted in zip(points, lux))
     assert worst < 1e-4 * mean, (worst, mean)
+    assert abs(grid["mean"] - mean) < 1e-4 * mean and grid["mean_95"] < 1e-6 * mean, (grid["mean"], grid["mean_95"], mean)
+    assert abs(grid["least"] - min(lux)) < 1e-4 * mean and abs(grid["most"] - max(lux)) < 1e-4 * mean, (grid["least"], grid["most"])
+    assert grid["least_95"] == grid["most_95"] == 0, grid
+
+
+def intervals(program):
+    """Each number of light comes with its 95 % interval, which narrows at pins and holds what `trace --interval` finds; without chance it is nothing."""
+    options = "-dt .05 -dc .5 -ds .25 -dr 1 -ab 2 -as 0".split()
+    with Server(program, [*options, "-aa", ".15", "-ad", "512"]) as server:
+        client = Client(server.port)
+        client.enter()
+        pins = [[0.5, 0, 0, 0, 0, 1], [2, 5.9999, 0.3, 0, -1, 0]]
+        client.socket.send({"type": "probes", "probes": [{"id": k, "position": pin[:3], "normal": pin[3:]} for k, pin in enumerate(pins)]})
+        first = client.told("probes")
+        last = client.told("probes", settled=1)
+        exact = ["-aa", "0", "-ad", "1024", "-lw", "1e-7", "--interval", "16"]
+        traced = subprocess.run([program, "trace", "-h", "-I", *options, *exact, server.scene], stdout=subprocess.PIPE, text=True, check=True,
+                                input="".join(" ".join(map(str, pin)) + "\n" for pin in pins)).stdout
+        luminous = lambda rgb: 179 * sum(a * b for a, b in zip((0.265106, 0.670106, 0.064788), rgb))  # noqa: E731
+        for early, late, line in zip(first["probes"], last["probes"], traced.splitlines(), strict=True):
+            rgb = [float(word) for word in line.split()]
+            truth, half = luminous(rgb[:3]), luminous(rgb[3:])
+            assert half < 0.01 * truth, (truth, half)
+            for told in (early, late):
+                assert abs(told["illuminance"] - truth) < 2 * told["illuminance_95"] + half, (told, truth)
+            for name in ("illuminance", "luminance"):
+                assert 0 < late[name + "_95"] <= early[name + "_95"] and late[name + "_95"] < 0.02 * late[name], (name, early, late)
+        client.told("state", phase="done")
+        floor = client.ask("pick", "picked", x=0.5, y=0.1)
+        for name in ("luminance", "illuminance"):
+            assert 0 < floor[name + "_95"] < 0.3 * floor[name], floor
+        mean = client.ask("rectangle", "mean", rect=[0.3, 0, 0.7, 0.3])
+        assert 0 < mean["luminance_95"] < 0.1 * mean["luminance"], mean
+        client.ident += 1
+        client.socket.send({"type": "glare", "id": client.ident})
+        glare = client.told("glare", id=client.ident, done=1)
+        assert 0 < glare["dgp_95"] < 0.05, glare
+    with Server(program) as server:  # direct light, whose places are not random
+        client = Client(server.port)
+        client.enter()
+        client.socket.send({"type": "probes", "probes": [{"id": 1, "position": [0.5, 0, 0], "normal": [0, 0, 1]}]})
+        pin = client.told("probes")["probes"][0]
+        assert pin["illuminance"] > 0 and pin["illuminance_95"] == pin["luminance_95"] == 0, pin
 
 
 def dimmed(program, words=(), launcher=()):
@@ -534,7 +577,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, clean, light, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
+CASES = {case.__name__: case for case in (rest, clean, light, intervals, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

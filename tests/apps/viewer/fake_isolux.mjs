@@ -1,4 +1,5 @@
 // Illuminances on planes of the room that a fake server draws, as the real server tells them.
+import { read_grid, statistics } from "../../../apps/viewer/isolux.js";
 import { kBall, kRoom, kTable } from "./fake_scene.mjs";
 
 const kFine = 32; // points along a side, divisible by four
@@ -38,7 +39,11 @@ function grid_message(id, done, z, columns, brightness) {
     }
     const normal = [0, 0, 1];
     const grid = { columns, rows: columns, origin, across, along, normal };
-    return { type: "isolux", id, done, ...grid, values: values.toString("base64") };
+    const message = { type: "isolux", id, done, ...grid, values: values.toString("base64") };
+    if (done < 1) return message;
+    const { mean, min: least, max: most } = statistics(read_grid(message));
+    const half = { mean_95: 0.011 * mean, least_95: 0.034 * least, most_95: 0.002 * most };
+    return { ...message, mean, least, most, ...half };
 }
 
 /** The answers to an `isolux` request, one after the other: level planes of the whole room; of other surfaces there are none. */

@@ -272,7 +272,9 @@ function picked({ id, ...question }) {
             id,
             hit: false,
             luminance: 0,
+            luminance_95: 0,
             illuminance: null,
+            illuminance_95: null,
             distance: null,
             position: null,
             normal: null,
@@ -284,7 +286,9 @@ function picked({ id, ...question }) {
         id,
         hit: true,
         luminance: hit.luminance,
+        luminance_95: 0.004 * hit.luminance,
         illuminance: lux(hit),
+        illuminance_95: 0.023 * lux(hit),
         distance: hit.t,
         position: hit.position,
         normal: hit.normal,
@@ -311,6 +315,7 @@ function mean({ id, rect: [x0, y0, x1, y1] }) {
         type: "mean",
         id,
         luminance: sum / (n * n),
+        luminance_95: (0.015 * sum) / (n * n),
         pixels: Math.round((x1 - x0) * (y1 - y0) * wish.width * wish.height),
     };
 }
@@ -324,7 +329,9 @@ function measured(settled) {
         return {
             id,
             luminance: hit.luminance * (0.8 + 0.2 * settled),
+            luminance_95: 0,
             illuminance: lux(hit) * (0.8 + 0.2 * settled),
+            illuminance_95: lux(hit) * (settled < 1 ? 0.12 : 0.028),
         };
     });
     return { type: "probes", probes: values, settled };
@@ -342,6 +349,7 @@ function glare({ id }) {
         id,
         done: 1,
         dgp: 0.372,
+        dgp_95: 0.006,
         sources: [{ outline, luminance: 4610, solid_angle: 0.21, position_index: 2.4 }],
     };
 }

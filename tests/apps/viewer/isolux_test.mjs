@@ -12,6 +12,7 @@ import {
     sensor_points,
     spacing_of,
     statistics,
+    told_figures,
     trace_command,
 } from "../../../apps/viewer/isolux.js";
 import { Sight } from "../../../apps/viewer/sight.js";
@@ -261,4 +262,22 @@ test("a place is hidden where the frame shows something nearer", async () => {
     assert.equal(sight.hides([2.9, 4, 1]), false); // on the wall
     assert.equal(sight.hides([3, 4.5, 1]), true); // behind the wall
     assert.equal(sight.hides([30, 3, 1]), false); // beside the picture
+});
+
+test("figures of a final grid are those that are told, with half of their intervals; a ratio has that of both", () => {
+    const messages = isolux_messages({ id: 1, position: [0, 0, 1.6], height: 0.75 }, 1);
+    const final = messages.at(-1),
+        grid = read_grid(final);
+    const figures = told_figures(grid, final);
+    assert.equal(figures.count, statistics(grid).count);
+    assert.deepEqual(
+        [figures.mean, figures.min, figures.max],
+        [final.mean, final.least, final.most],
+    );
+    assert.equal(figures.half.mean, final.mean_95);
+    assert.ok(Math.abs(figures.uniformity - final.least / final.mean) < 1e-12);
+    const shares = [final.mean_95 / final.mean, final.least_95 / final.least];
+    const wanted = Math.hypot(...shares) * figures.uniformity;
+    assert.ok(Math.abs(figures.half.uniformity - wanted) < 1e-12 && wanted > 0);
+    assert.deepEqual(told_figures(grid, messages[1]), statistics(grid));
 });

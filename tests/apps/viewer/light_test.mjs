@@ -11,11 +11,15 @@ import {
 import { measurement_table } from "../../../apps/viewer/table.js";
 import {
     glare_word,
+    glare_words,
+    known,
     phase_words,
     pixel_shares,
     quantity,
     round_number,
     stops,
+    within,
+    within_hundredths,
 } from "../../../apps/viewer/words.js";
 
 const kView = {
@@ -32,7 +36,9 @@ const kPick = {
     material: "oak",
     surface: "floor",
     illuminance: 500,
+    illuminance_95: 12,
     luminance: 80,
+    luminance_95: 0.5,
 };
 
 test("a scale begins at its low end and ends at its high one; the middle is the mean of its kind", () => {
@@ -110,6 +116,30 @@ test("quantities have three digits that matter", () => {
     );
 });
 
+test("how well a value is known is rounded up, and nothing is said where there is nothing to say", () => {
+    const plain = (text) => text.replaceAll("\u202f", " ");
+    const shares = [0.0004, 0.0099, 0.01, 0.0201, 0.03, 0.0999, 0.123, 0.99, 0.991, 7];
+    assert.deepEqual(
+        shares.map((share) => plain(within(430, share * 430))),
+        ["<1", "<1", "1", "3", "3", "10", "13", "99", ">99", ">99"].map((x) => `± ${x} %`),
+    );
+    assert.equal(within(-10, 1), within(10, 1));
+    for (const half of [0, 1e-9, undefined, null, NaN, Infinity])
+        assert.equal(within(10, half), "");
+    for (const value of [0, NaN, null, undefined]) assert.equal(within(value, 1), "");
+    assert.equal(plain(known(430, 10, "lx")), "430 lx ± 3 %");
+    assert.equal(known(430, 0, "lx"), "430 lx");
+    assert.equal(plain(within_hundredths(0.0101)), "± 0.02");
+    assert.equal(plain(within_hundredths(0.0001)), "± 0.01");
+    for (const none of [0, undefined, null]) assert.equal(within_hundredths(none), "");
+});
+
+test("a probability that is not known well enough belongs to more than one class", () => {
+    assert.equal(glare_words(0.37, 0.01), "perceptible");
+    assert.equal(glare_words(0.37), "perceptible");
+    assert.equal(glare_words(0.37, 0.03), "imperceptible to disturbing");
+});
+
 test("glare is felt by the classes of its authors", () => {
     assert.deepEqual([0.34, 0.35, 0.4, 0.45].map(glare_word), [
         "imperceptible",
@@ -123,7 +153,8 @@ test("a table has a row for each measurement, all with the same cells", () => {
     const m = new Measurements(() => {});
     m.pin(kPick, "2026-01-31T12:00:00Z");
     const area = m.add_area([0.1, 0.2, 0.3, 0.4], kView);
-    m.update_area({ id: area.id, luminance: 42.5, pixels: 99 }, 1, "2026-01-31T12:01:00Z");
+    const mean = { id: area.id, luminance: 42.5, luminance_95: 0.25, pixels: 99 };
+    m.update_area(mean, 1, "2026-01-31T12:01:00Z");
     const text = measurement_table(m.probes, m.areas, { ambient: "rest", scene: "a,b.oct" });
     const lines = text.trimEnd().split("\r\n");
     assert.equal(lines.length, 3);
@@ -138,6 +169,8 @@ test("a table has a row for each measurement, all with the same cells", () => {
         .map((line) => Object.fromEntries(cells(line).map((c, k) => [names[k], c])));
     for (const line of lines.slice(1)) assert.equal(cells(line).length, names.length);
     assert.equal(rows[0].illuminance_lx, "500");
+    assert.deepEqual([rows[0].illuminance_95_lx, rows[0].luminance_95_cd_m2], ["12", "0.5"]);
+    assert.deepEqual([rows[1].illuminance_95_lx, rows[1].luminance_95_cd_m2], ["", "0.25"]);
     assert.deepEqual(
         [rows[0].x_m, rows[0].y_m, rows[0].z_m, rows[0].normal_z],
         ["1", "2", "3", "1"],
@@ -166,7 +199,7 @@ test("pins follow the server's values; values of pins that are gone are nobody's
         {
             probes: [
                 { id: first, illuminance: 1, luminance: 1 },
-                { id: second, illuminance: 2, luminance: 3 },
+                { id: second, illuminance: 2, illuminance_95: 0.5, luminance: 3 },
             ],
             settled: 0.5,
         },
@@ -176,6 +209,10 @@ test("pins follow the server's values; values of pins that are gone are nobody's
     assert.deepEqual(
         [m.probes[0].illuminance, m.probes[0].luminance, m.probes[0].settled],
         [2, 3, 0.5],
+    );
+    assert.deepEqual(
+        [m.probes[0].illuminance_95, m.probes[0].luminance_95], // what is not told is not kept, either
+        [0.5, undefined],
     );
 });
 

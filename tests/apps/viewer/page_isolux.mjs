@@ -49,9 +49,13 @@ export const isolux_steps = (prank, npm) => ({
         await final(page);
         const grid = read_grid(await value(page, "last_isolux"));
         const figures = statistics(grid);
+        const plain = (x) => quantity(x).replaceAll("\u202f", "");
         const words = await page.textContent("#isolux-figures");
-        assert.ok(words.includes(`Mean${quantity(figures.mean)} lx`), words);
-        assert.ok(words.includes(`(min/mean)${figures.uniformity.toFixed(2)}`), words);
+        const spaced = words.replaceAll("\u202f", "");
+        assert.ok(spaced.includes(`Mean${plain(figures.mean)} lx ±2%`), words);
+        assert.ok(spaced.includes(`Minimum${plain(figures.min)} lx ±4%`), words);
+        assert.ok(spaced.includes(`Maximum${plain(figures.max)} lx ±<1%`), words);
+        assert.ok(words.includes(`(min/mean)${figures.uniformity.toFixed(2)} ±`), words);
         assert.match(await page.textContent("#isolux-text"), /^0\.75 m above the floor\. /);
         assert.deepEqual((await axe_complaints(page, npm)) ?? [], []);
         const contours = await drawn(page);

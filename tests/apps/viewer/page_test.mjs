@@ -158,8 +158,21 @@ const steps = {
     async "pins stand where they were put, and follow the light"(page) {
         await page.mouse.click(240, 250);
         await page.waitForSelector("#pin");
+        const reading = (await page.textContent("#reading")).replaceAll("\u202f", " ");
+        assert.match(reading, /cd\/m² ± <1 %/);
+        assert.match(reading, /Illuminance[\d. ]+ lx ± 3 %/);
         await page.keyboard.press("p");
+        await page.keyboard.press("m");
+        const height = () => document.querySelector("#measured tr")?.offsetHeight;
+        const first = await (await until(page, height)).jsonValue();
         await until(page, () => window.lightwalk.last_probes?.settled === 1);
+        const pin = (await page.textContent("#measured tr")).replaceAll("\u202f", " ");
+        assert.match(pin, /± 3 %\d/, pin); // of illuminance, and none of luminance
+        assert.equal(await page.evaluate(height), first);
+        await page.keyboard.press("m");
+        await until(page, () =>
+            /^P1 .* lx ±.3.%$/.test(document.querySelector("#overlay text")?.textContent),
+        );
         // Marks are made anew at refreshes: asked for and measured in one.
         const place = await until(page, () => {
             const mark = document.querySelector("#overlay .pin");
@@ -193,6 +206,8 @@ const steps = {
         await page.keyboard.press("m");
         await until(page, () => document.querySelectorAll("#measured tr").length === 2);
         assert.equal(await page.getAttribute("#area", "aria-pressed"), "false");
+        const area = (await page.textContent("#measured tr:last-child")).replaceAll("\u202f", " ");
+        assert.match(area, /[\d.]+± 2 %/);
     },
 
     async "files hold what is seen"(page) {
@@ -256,7 +271,7 @@ const steps = {
         await page.keyboard.press("l");
         await page.click("#ask-glare");
         await page.waitForSelector("#overlay .source");
-        assert.match(await page.textContent("#glare"), /DGP 0\.37perceptible/);
+        assert.match(await page.textContent("#glare"), /DGP 0\.37 ±\u202f0\.01perceptible/);
         await page.focus("#picture");
         await page.keyboard.press("ArrowLeft", { delay: 100 });
         await page.waitForSelector("#overlay .source", { state: "detached" });

@@ -98,17 +98,20 @@ TEST_CASE("walk reply: each is the text that the format has for it") {
          R"({"type": "role", "driver": true, "driver_id": 4, "clients": [4, 5]})");
     same(walk_text(RoleReply{}),
          R"({"type": "role", "driver": false, "driver_id": null, "clients": []})");
-    same(walk_text(PickedReply{7, true, 100.5, 30, 2.5, {1, 2, 3}, {0, 0, 1}, "oak", "table.1"}),
-         R"({"type": "picked", "id": 7, "hit": true, "luminance": 100.5, "illuminance": 30.0,
+    same(walk_text(PickedReply{
+             7, true, {100.5, 2}, {30, 0.5}, 2.5, {1, 2, 3}, {0, 0, 1}, "oak", "table.1"}),
+         R"({"type": "picked", "id": 7, "hit": true, "luminance": 100.5, "luminance_95": 2.0,
+             "illuminance": 30.0, "illuminance_95": 0.5,
              "distance": 2.5, "position": [1.0, 2.0, 3.0], "normal": [0.0, 0.0, 1.0],
              "material": "oak", "surface": "table.1"})");
-    same(walk_text(MeanReply{8, 12.5, 640}),
-         R"({"type": "mean", "id": 8, "luminance": 12.5, "pixels": 640})");
-    same(walk_text(ProbesReply{{{1, 500, 80}}, 0.25}),
-         R"({"type": "probes", "probes": [{"id": 1, "illuminance": 500.0, "luminance": 80.0}],
+    same(walk_text(MeanReply{8, {12.5, 0.25}, 640}),
+         R"({"type": "mean", "id": 8, "luminance": 12.5, "luminance_95": 0.25, "pixels": 640})");
+    same(walk_text(ProbesReply{{{1, {500, 10}, {80, 1.5}}}, 0.25}),
+         R"({"type": "probes", "probes": [{"id": 1, "illuminance": 500.0, "illuminance_95": 10.0,
+             "luminance": 80.0, "luminance_95": 1.5}],
              "settled": 0.25})");
-    same(walk_text(GlareReply{9, 1, 0.5, {{{{0, 0.5}, {1, 1}}, 2000, 0.125, 1.5}}}),
-         R"({"type": "glare", "id": 9, "done": 1.0, "dgp": 0.5, "sources": [
+    same(walk_text(GlareReply{9, 1, {0.5, 0.125}, {{{{0, 0.5}, {1, 1}}, 2000, 0.125, 1.5}}}),
+         R"({"type": "glare", "id": 9, "done": 1.0, "dgp": 0.5, "dgp_95": 0.125, "sources": [
              {"outline": [[0.0, 0.5], [1.0, 1.0]], "luminance": 2000.0, "solid_angle": 0.125,
               "position_index": 1.5}]})");
     same(walk_text(PlanReply{6, 3, 2, -1.5, 2, 0.25, 1.5, "AAAA"}),
@@ -164,6 +167,13 @@ TEST_CASE("walk reply: illuminances come back from base64, also those that are n
     REQUIRE(bytes.size() == 8);
     CHECK(bytes.substr(0, 4) == std::string("\0\x80\xf6\x42", 4));  // IEEE 754, lowest byte first
     CHECK((bytes[7] & 0x7f) == 0x7f);
+    CHECK_FALSE(told.contains("mean"));
+    reply.figures = IsoluxFigures{{130, 2}, {123, 3}, {140, 4}};
+    const json done = json::parse(walk_text(reply));
+    const std::vector<std::pair<const char*, double>> wanted{{"mean", 130},  {"mean_95", 2},
+                                                             {"least", 123}, {"least_95", 3},
+                                                             {"most", 140},  {"most_95", 4}};
+    for (const auto& [name, number] : wanted) CHECK(done[name] == number);
     CHECK(json::parse(walk_text(IsoluxReply{4, 1})) ==
           json::parse(R"({"type": "isolux", "id": 4, "done": 1.0, "columns": 0, "rows": 0})"));
 }
@@ -171,10 +181,12 @@ TEST_CASE("walk reply: illuminances come back from base64, also those that are n
 TEST_CASE("walk reply: names that are no UTF-8 and numbers that are none are still JSON") {
     PickedReply reply;
     reply.material = "wei\xdf \"quoted\"\n";
-    reply.luminance = std::numeric_limits<double>::quiet_NaN();
+    reply.luminance = {std::numeric_limits<double>::quiet_NaN(), 0};
+    reply.illuminance = {1, std::numeric_limits<double>::infinity()};
     reply.distance = std::numeric_limits<double>::infinity();
     const json told = json::parse(walk_text(reply));
     CHECK(told["material"] == "wei\xef\xbf\xbd \"quoted\"\n");
     CHECK(told["luminance"].is_null());
+    CHECK(told["illuminance_95"].is_null());
     CHECK(told["distance"].is_null());
 }
