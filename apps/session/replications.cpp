@@ -20,6 +20,7 @@ RendererOptions replication_options(RendererOptions options, int replication) {
 std::vector<Renderer> open_replications(const std::shared_ptr<const CompiledScene>& scene,
                                         const RendererOptions& options, int count) {
     std::vector<Renderer> renderers;
+    renderers.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k)
         renderers.emplace_back(
             std::make_unique<LocalBackend>(scene, replication_options(options, k)));

@@ -27,10 +27,9 @@ export class Glare {
         this.waiting_ = done < 1;
         const words = [];
         if (done >= 1 && Number.isFinite(dgp)) {
-            const value = [`DGP ${dgp.toFixed(2)}`, within_hundredths(dgp_95)];
             words.push(
-                element("strong", { textContent: value.filter(Boolean).join(" ") }),
-                glare_words(dgp, dgp_95),
+                element("strong", { textContent: `DGP ${dgp.toFixed(2)}` }),
+                [within_hundredths(dgp_95), glare_words(dgp, dgp_95)].filter(Boolean).join(" · "),
             );
         }
         if (this.sources.length > 0)

@@ -2,6 +2,7 @@
 import { by_id, element, remove_button } from "./dom.js";
 import { quantity, within } from "./words.js";
 
+const kNothing = "\u00a0"; // as high as an interval
 const kInterval = "95 % confidence interval: what chance has made of the calculation";
 
 function row(item, [lux, lux_95], remove) {
@@ -17,7 +18,7 @@ function row(item, [lux, lux_95], remove) {
         element(
             "td",
             { textContent: Number.isFinite(x) ? quantity(x) : "–" },
-            element("small", { textContent: within(x, half), title: kInterval }),
+            element("small", { textContent: within(x, half) || kNothing, title: kInterval }),
         );
     return element(
         "tr",

@@ -127,7 +127,7 @@ MeanInterval WalkGlare::probability(std::span<const Rgb> radiance, double dgp) c
                    : shares[term].luminance;
     };
     MeanInterval interval = corrected_sum(terms, sampler.random(kOfGlare, ~0u), sample);
-    interval.mean = std::clamp(dgp + interval.mean - sum, 0.0, 1.0);
+    interval.mean = std::clamp(dgp + (interval.mean - sum), 0.0, 1.0);
     return interval;
 }
 

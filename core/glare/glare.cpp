@@ -128,6 +128,7 @@ std::vector<FoundSource> sources_in(const SourceView& of, const GlareParams& par
 
 std::vector<GlareSource> without_pixels(std::vector<FoundSource> found) {
     std::vector<GlareSource> sources;
+    sources.reserve(found.size());
     for (FoundSource& one : found) sources.push_back(std::move(one.source));
     return sources;
 }
@@ -192,6 +193,7 @@ std::vector<GlareShare> glare_shares(const FieldPicture& picture, const View& vi
     for (const FoundSource& one : found) glare += one.source.glare;
     const DgpSlopes slopes = dgp_slopes(ev, glare);
     std::vector<GlareShare> shares;
+    shares.reserve(field.pixels.size());
     for (const FieldPixel& pixel : field.pixels)
         shares.push_back({pixel.place, pixel.luminance, slopes.ev * projected(pixel, camera)});
     for (const auto& [source, pixels] : found) {

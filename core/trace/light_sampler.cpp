@@ -26,7 +26,8 @@ RenderOptions uncached(RenderOptions options) {
 void LightBatches::add(const SampledLight& light) {
     const auto count = static_cast<std::size_t>(count_);
     SampledLight& mean = means_[count % kBatches];
-    const float share = 1 / static_cast<float>(count / kBatches + 1);
+    const std::size_t samples = count / kBatches + 1;  // in this batch, with this one
+    const float share = 1 / static_cast<float>(samples);
     mean.groups.resize(light.groups.size());
     // Equal samples have exactly that mean.
     mean.whole += share * (light.whole - mean.whole);

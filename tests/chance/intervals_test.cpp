@@ -13,6 +13,7 @@
 #include "core/math/student_t.h"
 #include "parallel/executor.h"
 #include "tests/core/theory/formulas.h"
+#include "tests/core/trace/white_room.h"
 #include "tests/one_thread.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
@@ -123,17 +124,7 @@ std::string numbers_of(const std::vector<Vec3>& corners) {
     return text + '\n';
 }
 
-const std::string kWhiteRoom =
-    "void plastic white 0 0 5 .7 .6 .5 0 0\nvoid light lamp 0 0 3 9 9 9\n"
-    "white polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0\n"
-    "white polygon ceiling 0 0 12 -2 -2 3 -2 2 3 2 2 3 2 -2 3\n"
-    "white polygon west 0 0 12 -2 -2 0 -2 2 0 -2 2 3 -2 -2 3\n"
-    "white polygon east 0 0 12 2 -2 0 2 -2 3 2 2 3 2 2 0\n"
-    "white polygon south 0 0 12 -2 -2 0 -2 -2 3 2 -2 3 2 -2 0\n"
-    "white polygon north 0 0 12 -2 2 0 2 2 0 2 2 3 -2 2 3\n"
-    "lamp polygon panel 0 0 12 -.5 -.5 2.9 -.5 .5 2.9 .5 .5 2.9 .5 -.5 2.9\n";
-
-/// In that room, where two bounces are followed.
+/// In a white room, where two bounces are followed.
 Question indirect_question(double accuracy, int samples) {
     Question question = question_of(kWhiteRoom, {{.8, .3, .5}, {-1.2, -1, .9}});
     RenderOptions& light = question.options.light;

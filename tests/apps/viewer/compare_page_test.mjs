@@ -74,7 +74,7 @@ async function read(side, hour, colour, x, y) {
         return { last_pick, shown_view };
     });
     assert.ok(pick.hit);
-    assert.match(await page.textContent("#reading"), new RegExp(`cd/m² · ${side}`));
+    assert.match(await page.textContent("#reading"), new RegExp(`cd/m².* · ${side}`));
     const { luminance, illuminance, position, normal } = pick;
     const one = { side, hour, colour, luminance, illuminance, position, normal };
     kRead.push({ ...one, eye: shown_view.position });

@@ -271,7 +271,7 @@ const steps = {
         await page.keyboard.press("l");
         await page.click("#ask-glare");
         await page.waitForSelector("#overlay .source");
-        assert.match(await page.textContent("#glare"), /DGP 0\.37 ±\u202f0\.01perceptible/);
+        assert.match(await page.textContent("#glare"), /DGP 0\.37±\u202f0\.01 · perceptible/);
         await page.focus("#picture");
         await page.keyboard.press("ArrowLeft", { delay: 100 });
         await page.waitForSelector("#overlay .source", { state: "detached" });
