@@ -8,7 +8,9 @@
 #include "apps/python/bindings.h"
 #include "apps/python/python_call.h"
 #include "apps/session/render_backend.h"
+#include "apps/session/replications.h"
 #include "apps/trace_command.h"
+#include "core/math/student_t.h"
 #include "core/transport/ray.h"
 #include "io/contributions/contribution_tally.h"
 
@@ -44,6 +46,7 @@ struct FoundSurface {
 
 struct PythonRays {
     NumberArray<float> radiance;
+    NumberArray<float> half_width;  ///< of its intervals; empty: not asked for
     NumberArray<double> distance, normal, position;
     NumberArray<std::int32_t> surface;
 };
@@ -97,6 +100,36 @@ void append_bytes(const Found& found, std::string& bytes) {
     bytes.append(reinterpret_cast<const char*>(&found), sizeof found);
 }
 
+/// Of the first of several answers all, but the mean of all radiances, and its intervals.
+template <class Found>
+PythonRays rays_of(const std::vector<std::string>& answers) {
+    PythonRays rays = rays_of<Found>(answers.front());
+    if (answers.size() == 1) return rays;
+    std::vector<NumberArray<float>> radiances;
+    radiances.reserve(answers.size());
+    for (const std::string& bytes : answers) radiances.push_back(rays_of<Found>(bytes).radiance);
+    rays.half_width.numbers.reserve(rays.radiance.numbers.size());
+    std::vector<double> values(answers.size());
+    for (std::size_t i = 0; i < rays.radiance.numbers.size(); ++i) {
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k] = static_cast<double>(radiances[k].numbers[i]);
+        const MeanInterval interval = mean_interval(values);
+        rays.radiance.numbers[i] = static_cast<float>(interval.mean);
+        rays.half_width.numbers.push_back(static_cast<float>(interval.half_width));
+    }
+    return rays;
+}
+
+/// What one of `count` answers tells of its progress, as that of all of them.
+TakeProgressReport part_of(TakeProgressReport take, int answer, int count) {
+    if (!take) return take;
+    return [take = std::move(take), answer, count](RenderProgress progress) {
+        progress.done = (answer + progress.done) / count;
+        if (count > 1) progress.seconds_left.reset();
+        take(progress);
+    };
+}
+
 RendererOptions trace_options(TraceCommand& command, bool shade, bool sensor) {
     RenderOptions& light = command.common.settings.light;
     if (!shade) {  // do not prepare light sources
@@ -110,9 +143,10 @@ RendererOptions trace_options(TraceCommand& command, bool shade, bool sensor) {
     return options;
 }
 
+/// @param interval  answers to each ray, from 2 on; 0: one, without an interval
 std::pair<PythonRays, Words> trace(const PythonScene& scene, const Words& words,
                                    const py::buffer& numbers, bool sensor, bool shade,
-                                   bool surfaces, py::object listener) {
+                                   bool surfaces, int interval, py::object listener) {
     RayTask task{queries_of(numbers)};
     TraceCommand command;
     take_options(command, words);
@@ -120,7 +154,6 @@ std::pair<PythonRays, Words> trace(const PythonScene& scene, const Words& words,
     ProgressTeller teller(std::move(listener));
     RendererOptions options = trace_options(command, shade, sensor);
     options.warn = [&](const std::string& text) { warnings.warn(text); };
-    options.progress = teller.taker();
     options.record = [surfaces](const RayQuery&, const Ray& ray, const Hit& first,
                                 std::string& bytes) {
         if (surfaces)
@@ -128,16 +161,21 @@ std::pair<PythonRays, Words> trace(const PythonScene& scene, const Words& words,
         else
             append_bytes(light_of(ray, first), bytes);
     };
-    std::optional<Renderer> renderer;
-    {
-        const py::gil_scoped_release unlocked;
-        renderer.emplace(scene.scene, options);
-        if (shade) renderer->backend().session().warn_of_darkness();
+    const int count = std::max(interval, 1);
+    std::vector<std::string> answers;
+    for (int k = 0; k < count; ++k) {
+        RendererOptions one = interval > 0 ? replication_options(options, k) : options;
+        one.progress = part_of(teller.taker(), k, count);
+        std::optional<Renderer> renderer;
+        {
+            const py::gil_scoped_release unlocked;
+            renderer.emplace(scene.scene, one);
+            if (shade && k == 0) renderer->backend().session().warn_of_darkness();
+        }
+        answers.push_back(wait_for_task(*renderer, renderer->start(task), teller).bytes);
     }
-    const RayBytes found = wait_for_task(*renderer, renderer->start(std::move(task)), teller);
     const py::gil_scoped_release unlocked;
-    PythonRays rays =
-        surfaces ? rays_of<FoundSurface>(found.bytes) : rays_of<FoundLight>(found.bytes);
+    PythonRays rays = surfaces ? rays_of<FoundSurface>(answers) : rays_of<FoundLight>(answers);
     return {std::move(rays), warnings.take()};
 }
 
@@ -194,12 +232,14 @@ std::pair<PythonContributions, Words> contrib(const PythonScene& scene, const Wo
 void bind_rays(py::module_& module) {
     py::class_<PythonRays>(module, "Rays")
         .def_readonly("radiance", &PythonRays::radiance)
+        .def_readonly("half_width", &PythonRays::half_width)
         .def_readonly("distance", &PythonRays::distance)
         .def_readonly("position", &PythonRays::position)
         .def_readonly("normal", &PythonRays::normal)
         .def_readonly("surface", &PythonRays::surface);
     module.def("trace", &trace, py::arg("scene"), py::arg("words"), py::arg("rays"),
-               py::arg("sensor"), py::arg("shade"), py::arg("surfaces"), py::arg("listener"));
+               py::arg("sensor"), py::arg("shade"), py::arg("surfaces"), py::arg("interval"),
+               py::arg("listener"));
     py::class_<PythonContributions>(module, "Contributions")
         .def_readonly("modifiers", &PythonContributions::modifiers)
         .def_readonly("numbers", &PythonContributions::numbers);

@@ -27,6 +27,35 @@ def test_rays_bring_what_those_of_the_command_bring(room_file, room, irradiance,
     assert found.max() > 0
 
 
+@pytest.mark.parametrize("words, options", [
+    (["-dj", "1"], {"dj": 1}), (["-ab", "2", "-ad", "16", "-aa", "0"], {"ab": 2, "ad": 16, "aa": 0}), (["-ab", "1", "-ad", "16", "-n", "1"], {"ab": 1, "ad": 16, "n": 1})])
+def test_intervals_are_those_of_the_command(room_file, room, words, options):
+    rays = np.hstack([ORIGINS, DIRECTIONS])
+    found = command("trace", *words, "-ov", "--interval", "5", "-h-", "-fdf", room_file, input=rays.tobytes())
+    expected = np.frombuffer(found, np.float32).reshape(500, 6)
+    told = []
+    values, half_widths = room.trace(ORIGINS, DIRECTIONS, interval=5, progress=told.append, **options)
+    assert values.dtype == half_widths.dtype == np.float32 and half_widths.shape == (500, 3)
+    assert np.array_equal(values, expected[:, :3]) and np.array_equal(half_widths, expected[:, 3:])
+    assert (half_widths > 0).any()
+    assert told == sorted(told) and all(0 <= share <= 1 for share in told)
+    more = room.trace(ORIGINS, DIRECTIONS, interval=5, distance=True, surface=True, **options)
+    assert np.array_equal(more.radiance, values) and np.array_equal(more.half_width, half_widths)
+    assert np.array_equal(more.distance, room.trace(ORIGINS, DIRECTIONS, distance=True).distance)
+
+
+def test_light_without_chance_has_an_interval_of_nothing_and_none_where_it_is_not_asked_for(room):
+    values, half_widths = room.trace(ORIGINS, DIRECTIONS, interval=2)
+    assert np.array_equal(values, room.trace(ORIGINS, DIRECTIONS)) and not half_widths.any()
+    assert room.trace(ORIGINS, DIRECTIONS, distance=True).half_width is None
+    assert room.trace(np.empty((0, 3)), np.empty((0, 3)), interval=3)[1].shape == (0, 3)
+    for interval in (1, -2, 101, 2.5, True, "3"):
+        with pytest.raises(lightwalk.OptionError, match="from 2 to 100"):
+            room.trace(ORIGINS, DIRECTIONS, interval=interval)
+    with pytest.raises(lightwalk.InputError, match="ambient file"):
+        room.trace(ORIGINS, DIRECTIONS, interval=2, ab=1, af="values.amb")
+
+
 def test_rays_tell_where_they_end(room_file, room):
     rays = np.hstack([ORIGINS, DIRECTIONS])
     found = room.trace(ORIGINS, DIRECTIONS, distance=True, normal=True, position=True, surface=True, shade=False)

@@ -8,6 +8,7 @@ import pathlib
 import re
 import threading
 import warnings
+from numbers import Integral
 from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Sized, Union
 
 import numpy as np
@@ -60,6 +61,7 @@ class Rays:
         position: float64 (n, 3), where that is [m]; None: not asked for
         normal: float64 (n, 3) of the surface there, to its front; 0 where there is none; None: not asked for
         surface: (n), its name; "" where there is none; None: not asked for
+        half_width: float32 (n, 3): how far the 95 % interval of each radiance reaches to both sides; None: not asked for
     """
 
     radiance: np.ndarray
@@ -67,6 +69,7 @@ class Rays:
     position: np.ndarray | None
     normal: np.ndarray | None
     surface: np.ndarray | None
+    half_width: np.ndarray | None = None
 
 
 class Scene(Builder):
@@ -248,7 +251,8 @@ class Scene(Builder):
                 yield _picture(made, False).radiance
 
     def trace(self, origins: Any, directions: Any, irradiance: bool = False, *, distance: bool = False, normal: bool = False,
-              surface: bool = False, position: bool = False, shade: bool = True, progress: Progress = None, **options: Any) -> Any:
+              surface: bool = False, position: bool = False, shade: bool = True, interval: int = 0, progress: Progress = None,
+              **options: Any) -> Any:
         """Single rays, as `lightwalk trace` answers them.
 
         Args:
@@ -257,28 +261,33 @@ class Scene(Builder):
                 along a ray
             distance, normal, surface, position: what is wanted beside the light
             shade: False: only what the rays meet is found, and all light is 0
+            interval: 2 to 100: each ray is answered so many times, independently; the light is the mean, and comes with the
+                half-width of its 95 % confidence interval (Student's t). 0: it is answered once
             options: those of `lightwalk trace`: ab=2, ad=1024 ...
         Returns:
-            float32 (n, 3): radiance [W/(m² sr)], or irradiance [W/m²]; where more is wanted, Rays
+            float32 (n, 3): radiance [W/(m² sr)], or irradiance [W/m²]; with `interval` a pair of it and its half-widths, of the same
+            shape; where more is wanted, Rays
         Raises:
             InputError: arrays of other shapes, numbers that are not finite, and what is wrong with the scene
             OptionError: what is wrong with the options
         """
         rays = _arrays.rays(origins, directions)
+        answers = _answers(interval)
         words = words_of("trace", options)
         scene = self._compiled()
         with _Listener(progress, "trace") as listener:
-            found, messages = _core.trace(scene, words, rays, bool(irradiance), bool(shade), bool(normal or position), listener)
+            found, messages = _core.trace(scene, words, rays, bool(irradiance), bool(shade), bool(normal or position), answers, listener)
         self._warn(messages)
         radiance = _array(found.radiance, (len(rays), 3))
+        half_width = _array(found.half_width, (len(rays), 3)) if answers else None
         if not (distance or normal or surface or position):
-            return radiance
+            return (radiance, half_width) if answers else radiance
         names = None
         if surface:
             numbers, places = np.unique(_array(found.surface, (len(rays),)), return_inverse=True)
             names = np.array(scene.surface_names(numbers.tolist()) or [""])[places.reshape(-1)]
         return Rays(radiance, _array(found.distance, (len(rays),)), _array(found.position, (len(rays), 3)) if position else None,
-                    _array(found.normal, (len(rays), 3)) if normal else None, names)
+                    _array(found.normal, (len(rays), 3)) if normal else None, names, half_width)
 
     def contrib(self, origins: Any, directions: Any, modifiers: Any, irradiance: bool = False, *, progress: Progress = None,
                 **options: Any) -> dict[str, np.ndarray]:
@@ -349,6 +358,12 @@ def save_picture(file: Any, radiance: Any, *, view: ViewLike = None, header: Ite
     if view is not None:
         lines.append("VIEW= " + _core.view_text(view_words(view)))
     _core.save(_file(file), array, array.shape[1], array.shape[0], lines)
+
+
+def _answers(interval: Any) -> int:
+    if isinstance(interval, bool) or not isinstance(interval, Integral) or not (interval == 0 or 2 <= interval <= 100):
+        raise OptionError("interval: expected a number of answers from 2 to 100, or 0")
+    return int(interval)
 
 
 def _array(numbers: Any, shape: tuple[int, ...]) -> np.ndarray:
