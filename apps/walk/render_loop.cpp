@@ -486,8 +486,9 @@ void RenderLoop::save_files(const InboxContents& inbox) const {
 }
 
 void RenderLoop::measure_probes() {
-    constexpr double kBesidePictures = 0.02;  // [s]
-    const double seconds = has_work() ? kBesidePictures : kAtRest;
+    // A new view waits so long, too [s].
+    constexpr double kBesidePictures = 0.02, kDone = 0.05;
+    const double seconds = has_work() ? kBesidePictures : kDone;
     client_inbox_.tell_all(walk_text(answers_->measure(wish_.probes, view_->position, seconds)));
     measured_at_ = Clock::now();
 }
