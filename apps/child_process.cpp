@@ -79,6 +79,7 @@ ChildProcess::ChildProcess(std::vector<std::string> words, const ChildSignals& s
                            Output output)
     : signals_(signals), output_(std::move(output)) {
     std::vector<char*> texts;
+    texts.reserve(words.size() + 1);
     for (std::string& word : words) texts.push_back(word.data());
     texts.push_back(nullptr);
     const bool watched = output_.take_line != nullptr;
@@ -107,8 +108,7 @@ ChildProcess::ChildProcess(std::vector<std::string> words, const ChildSignals& s
     if (process_ > 0 && read(trouble.out.get(), &error, sizeof error) > 0)
         (void)waitpid(process_, nullptr, 0);
     if (error != 0)
-        throw InputError(words[0] +
-                         " cannot be started: " + std::generic_category().message(error));
+        throw std::system_error(error, std::generic_category(), words[0] + " cannot be started");
     out_ = std::move(out.out);
     err_ = std::move(err.out);
 }

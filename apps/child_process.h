@@ -47,7 +47,8 @@ class ChildProcess {
         std::string last_words;    ///< the end of what it has written to standard error
     };
 
-    /// Throws InputError where its program cannot be started.
+    /// Throws std::system_error where its program cannot be started, InputError where there is no
+    /// room for pipes.
     ChildProcess(std::vector<std::string> words, const ChildSignals& signals, Output output);
 
     /// Waits for its end.

@@ -36,7 +36,8 @@ constexpr int kMostRetries = 1000;
 constexpr std::chrono::minutes kLongRun{1};         ///< after which retries count anew
 constexpr std::chrono::seconds kAnswerPatience{5};  ///< for a host to answer
 constexpr std::chrono::seconds kPause{5};           ///< nobody moves so long: hosts may be taken in
-constexpr std::chrono::seconds kRest{10};           ///< after hosts that could not be taken in
+constexpr std::chrono::milliseconds kRest{10'000};  ///< after hosts that could not be taken in
+constexpr std::chrono::milliseconds kLongestRest{600'000};
 
 struct LaunchCommand {
     int ranks = 0;      ///< --ranks; 0: one for each slot of the hosts
@@ -135,6 +136,16 @@ Words names_without(const LaunchHosts& hosts, const LaunchHosts& others) {
     return names;
 }
 
+std::string change_words(const LaunchHosts& before, const LaunchHosts& now) {
+    const Words gone = names_without(before, now), come = names_without(now, before);
+    std::string words;
+    if (!come.empty()) words = joined(come) + (come.size() > 1 ? " are" : " is") + " there";
+    if (!come.empty() && !gone.empty()) words += ", ";
+    if (!gone.empty())
+        words += joined(gone) + (gone.size() > 1 ? " are" : " is") + " not to be used any more";
+    return words.empty() ? "hosts have other slots" : words;
+}
+
 class Launch {
   public:
     Launch(LaunchCommand options, Words command)
@@ -157,10 +168,11 @@ class Launch {
         for (int retry = 0;;) {
             const auto begin = std::chrono::steady_clock::now();
             const ChildProcess::End end = run_once(signals, begun_++ > 0);
-            if (std::chrono::steady_clock::now() - begin > kLongRun) retry = 0;
+            const bool was_long = std::chrono::steady_clock::now() - begin > kLongRun;
+            if (was_long) retry = 0;
             const int status = WIFEXITED(end.how) ? WEXITSTATUS(end.how) : 128 + WTERMSIG(end.how);
             if (end.interrupted) return status;
-            if (exchange_hosts(end)) continue;
+            if (exchange_hosts(ready_ || was_long)) continue;
             const bool done = status == kSuccessStatus || status == kUsageStatus;
             if (done || retry == options_.retries) return status;
             const std::string loss = find_loss(end, status);
@@ -179,8 +191,7 @@ class Launch {
     void open_head() {
         set_by_default(kWalkToken, make_secret().c_str());
         (void)setenv(kWalkHead, machine_name().c_str(), 1);  // NOLINT: there is one thread
-        WebServerOptions options = server_options({command_.begin() + 1, command_.end()});
-        head_.emplace(std::move(options), "starting the ranks");
+        head_.emplace(server_options({command_.begin() + 1, command_.end()}), "starting the ranks");
         if (!hosts_.empty()) watch_.emplace(options_.hosts, hosts_);
         std::printf("%s\n", head_->url().c_str());
         std::fflush(stdout);
@@ -217,7 +228,11 @@ class Launch {
         ChildProcess::Output output;
         if (walks_) output.take_line = [this](std::string_view line) { return meet(line); };
         if (watch_) output.tick = [this, &run] { take_in(*run); };
-        run.emplace(words_of(again), signals, std::move(output));
+        try {
+            run.emplace(words_of(again), signals, std::move(output));
+        } catch (const std::system_error& error) {
+            throw InputError(std::string(error.what()) + "; it is in Debian's package openmpi-bin");
+        }
         return run->wait();
     }
 
@@ -246,26 +261,21 @@ class Launch {
     }
 
     /// After a run's end: whether the next one is on other hosts, without any loss.
-    bool exchange_hosts(const ChildProcess::End& end) {
+    bool exchange_hosts(bool came_up) {
         if (pausing_) {
-            const Words gone = names_without(hosts_, next_), come = names_without(next_, hosts_);
             before_ = std::exchange(hosts_, next_);
             watch_->use(hosts_);
-            tell(
-                (come.empty() ? "" : joined(come) + (come.size() > 1 ? " are" : " is") + " there") +
-                (gone.empty() || come.empty() ? "" : ", ") +
-                (gone.empty() ? ""
-                              : joined(gone) + (gone.size() > 1 ? " are" : " is") +
-                                    " not to be used any more") +
-                (gone.empty() && come.empty() ? "other slots are to be used" : ""));
+            tell(change_words(before_, hosts_));
             return true;
         }
-        if (ready_) before_.clear();
-        if (ready_ || before_.empty() || end.interrupted) return false;
-        const Words come = names_without(hosts_, before_);
-        hosts_ = std::exchange(before_, {});
-        watch_->use(hosts_, kRest);
-        tell("no ranks can be started on " + joined(come));
+        const LaunchHosts before = std::exchange(before_, {});
+        if (came_up) rest_ = kRest;
+        if (came_up || before.empty()) return false;
+        const Words come = names_without(hosts_, before);
+        hosts_ = before;
+        if (watch_) watch_->use(hosts_, rest_);
+        rest_ = std::min(2 * rest_, kLongestRest);
+        tell("no ranks can be started" + (come.empty() ? "" : " on " + joined(come)));
         return true;
     }
 
@@ -273,23 +283,32 @@ class Launch {
     /// answer are left out from now on, and those that do are taken in.
     std::string find_loss(const ChildProcess::End& end, int status) {
         constexpr int kKilled = 128;
-        Words gone;
-        if (!hosts_.empty()) {
-            const LaunchHosts there = answering(wanted_hosts(), kAnswerPatience);
-            gone = names_without(hosts_, there);
-            for (const std::string& name : gone)
-                std::fprintf(stderr, "lightwalk launch: %s does not answer: goes on without it\n",
-                             name.c_str());
-            if (there.empty()) throw InputError({options_.hosts, 0}, "no host answers");
-            hosts_ = there;
-            if (watch_) watch_->use(hosts_);
-        }
+        const Words gone = hosts_.empty() ? Words() : leave_out_lost();
         if (!gone.empty()) return joined(gone) + (gone.size() > 1 ? " are lost" : " is lost");
         if (status <= kKilled) return {};
-        const std::string rank = lost_rank(end.last_words);
+        std::string rank = lost_rank(end.last_words);
         if (!rank.empty()) return rank;
         return WIFSIGNALED(end.how) ? "mpirun was killed"
                                     : "ended with status " + std::to_string(status);
+    }
+
+    /// Their names.
+    Words leave_out_lost() {
+        const LaunchHosts there = answering(wanted_hosts(), kAnswerPatience);
+        Words gone = names_without(hosts_, there);
+        for (const std::string& name : gone)
+            std::fprintf(stderr, "lightwalk launch: %s does not answer: goes on without it\n",
+                         name.c_str());
+        if (there.empty()) throw InputError({options_.hosts, 0}, "no host answers");
+        if (!names_without(there, hosts_).empty()) {
+            before_ = hosts_;
+            std::erase_if(before_, [&](const LaunchHost& host) {
+                return std::ranges::find(gone, host.name) != gone.end();
+            });
+        }
+        hosts_ = there;
+        if (watch_) watch_->use(hosts_);
+        return gone;
     }
 
     /// Those of the file, as it is now; those in use, where it cannot be read.
@@ -319,8 +338,9 @@ class Launch {
     std::string program_;
     LaunchHosts hosts_;   ///< in use
     LaunchHosts next_;    ///< to go on with, once this run has ended
-    LaunchHosts before_;  ///< those in use before, until the run on others is there
-    int begun_ = 0;       ///< number of runs
+    LaunchHosts before_;  ///< to go back to, where no run comes up on those in use
+    std::chrono::milliseconds rest_ = kRest;  ///< after that, until hosts are taken in again
+    int begun_ = 0;                           ///< number of runs
     bool can_go_on_ = false, walks_ = false;
     bool ready_ = false;    ///< the run's web server is there
     bool pausing_ = false;  ///< the run ends as other hosts are there

@@ -91,6 +91,7 @@ void wait_for_answers(std::vector<Question>& questions, std::chrono::millisecond
     const Clock::time_point end = Clock::now() + patience;
     while (std::ranges::any_of(questions, &Question::waits)) {
         std::vector<pollfd> awaited;
+        awaited.reserve(questions.size());
         for (const Question& question : questions) awaited.push_back(question.awaited());
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
         if (left.count() <= 0) return;

@@ -19,7 +19,7 @@ int run_walk(const std::vector<std::string>& /*words*/, Communicator* /*ranks*/)
 
 class WalkHead::Core {};
 
-WalkHead::WalkHead(WebServerOptions /*options*/, const std::string& /*why*/) {
+WalkHead::WalkHead(const WebServerOptions& /*options*/, const std::string& /*why*/) {
     refuse();
 }
 

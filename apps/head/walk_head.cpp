@@ -58,8 +58,8 @@ bool is_acknowledgement(std::string_view text) {
 /// that concerns runs, is done on another one, that of the context.
 class WalkHead::Core final : public WebHandler, public RunLinkHost {
   public:
-    Core(WebServerOptions options, const std::string& why)
-        : why_(why), server_(outward(std::move(options)), viewer_pages(), *this) {
+    Core(const WebServerOptions& options, const std::string& why)
+        : why_(why), server_(outward(options), viewer_pages(), *this) {
         run_thread_ = std::thread([this] { serve([this] { context_.run(); }); });
         try {
             server_thread_ = std::thread([this] { serve([this] { server_.run(); }); });
@@ -97,6 +97,7 @@ class WalkHead::Core final : public WebHandler, public RunLinkHost {
         bool beside = false;                 ///< it is about a scene beside the walk's
         bool drives = false;                 ///< the run has said so last
         bool welcomed = false;               ///< by this run or one before
+        bool interrupted = false;            ///< it has been told, and not welcomed since
     };
 
     template <class Work>
@@ -222,6 +223,7 @@ void WalkHead::Core::end_run(const std::string& why) {
 void WalkHead::Core::interrupt(ClientId client, Guest& guest, const std::string& why) {
     if (guest.link) std::exchange(guest.link, nullptr)->stop();
     if (guest.beside) return server_.close(client, why);  // its walk is another one now
+    guest.interrupted = true;
     server_.send_text(client, guest.welcomed ? walk_text(InterruptedReply{why})
                                              : walk_text(LoadingReply{why, 0}));
 }
@@ -246,6 +248,7 @@ void WalkHead::Core::came(ClientId client, std::shared_ptr<const std::string> by
     if (connecting_ == client) {
         connecting_.reset();
         guest.welcomed = true;
+        guest.interrupted = false;
         connect_next();
     }
     if (binary) return server_.send_binary(client, std::move(bytes));
@@ -265,7 +268,7 @@ void WalkHead::Core::ended(ClientId client, const std::optional<std::string>& re
         server_.close(client, *refusal);
         return connect_next();
     }
-    if (guest.welcomed) interrupt(client, guest, "the walk does not answer");
+    if (guest.welcomed && !guest.interrupted) interrupt(client, guest, "the walk does not answer");
     try_again();
 }
 
@@ -277,8 +280,8 @@ void WalkHead::Core::try_again() {
     });
 }
 
-WalkHead::WalkHead(WebServerOptions options, const std::string& why)
-    : core_(std::make_unique<Core>(std::move(options), why)) {}
+WalkHead::WalkHead(const WebServerOptions& options, const std::string& why)
+    : core_(std::make_unique<Core>(options, why)) {}
 
 WalkHead::~WalkHead() = default;
 

@@ -16,7 +16,7 @@ class WalkHead {
     /// @param options  the token is demanded where the address is not this machine's alone
     /// @param why  what pages are told that come before there is a run
     /// Throws InputError "address:port: why" when it cannot listen there.
-    WalkHead(WebServerOptions options, const std::string& why);
+    WalkHead(const WebServerOptions& options, const std::string& why);
     /// Pages are told that the server ends.
     ~WalkHead();
     WalkHead(const WalkHead&) = delete;
