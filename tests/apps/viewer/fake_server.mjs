@@ -417,8 +417,9 @@ const pranks = {
     alone: () => tell_all({ ...kLoaded, beside: { refused: "many processes draw this walk" } }),
     drop_beside: () => beside.socket?.terminate(),
     interrupt: () => {
-        [lights, edited, time] = [{ type: "lights", levels: [] }, null, { type: "time", time: null }];
-        [wish, probes] = [null, []];
+        lights = { type: "lights", levels: [] };
+        time = { type: "time", time: null };
+        [edited, wish, probes] = [null, null, []];
         tell_all({
             type: "interrupted",
             text: "rank 2 was killed: the walk begins anew with 4 ranks",
