@@ -115,8 +115,11 @@ cannot be rendered; what could be found out is printed all the same.
      launch_option_table,
      R"(Start a command on many ranks by Open MPI's mpirun, with the settings that let it notice a host that is gone. Where a
 rank or a host is lost, `render --checkpoint FILE` and `animate` are started again and go on from what is kept, without the
-hosts that do not answer: the picture is the same. A `walk` begins anew where the page is: it finds the server again, and
-tells it view, lights and probes. What the command itself ends with, bad input above all, is no loss.
+hosts that do not answer: the picture is the same. What the command itself ends with, bad input above all, is no loss.
+
+The page of a `walk` is served by this process, which draws nothing, on the port and address of the walk's options. Where ranks
+are lost it stays connected, says what has happened, and tells those that are started anew view, lights, materials and
+probes.
 )",
      R"(
   lightwalk launch --hosts hosts render --checkpoint kept -vf view.vf -o picture.hdr building.oct

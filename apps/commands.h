@@ -12,8 +12,11 @@ namespace lightwalk {
 class Communicator;
 class ResidentScene;
 
-/// The environment variable by which `launch` tells a walk its token.
-inline constexpr const char* kWalkToken = "LIGHTWALK_WALK_TOKEN";
+/// The environment variables by which `launch` tells a walk its token, and the name of the machine
+/// on which the walk's head is: the page is served there, and rank 0 listens for the head alone, on
+/// any port, of which it prints the address.
+inline constexpr const char *kWalkToken = "LIGHTWALK_WALK_TOKEN",
+                            *kWalkHead = "LIGHTWALK_WALK_HEAD";
 
 inline constexpr int kSuccessStatus = 0;
 inline constexpr int kFailureStatus = 1;  ///< bad input, or output that could not be written

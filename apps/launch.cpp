@@ -1,32 +1,30 @@
 // lightwalk launch: starts a command on many ranks, and again where a rank or a host is lost.
-#include <fcntl.h>
-#include <netdb.h>
-#include <poll.h>
-#include <spawn.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
+#include <optional>
 #include <random>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "apps/child_process.h"
 #include "apps/commands.h"
+#include "apps/head/walk_head.h"
+#include "apps/launch_hosts.h"
 #include "apps/session/lightwalk/ranks.h"
+#include "apps/walk_command.h"
 #include "core/error.h"
-#include "io/files/file_descriptor.h"
-#include "io/files/file_source.h"
 #include "io/options/option_words.h"
 
 namespace lightwalk {
@@ -34,10 +32,12 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr int kMostRanks = 1 << 16;
 constexpr int kMostRetries = 1000;
-constexpr std::chrono::minutes kLongRun{1};  ///< after which retries count anew
-constexpr int kAnswerPatience = 5000;        ///< for a host to answer [ms]
+constexpr std::chrono::minutes kLongRun{1};         ///< after which retries count anew
+constexpr std::chrono::seconds kAnswerPatience{5};  ///< for a host to answer
+constexpr std::chrono::seconds kPause{5};           ///< nobody moves so long: hosts may be taken in
+constexpr std::chrono::milliseconds kRest{10'000};  ///< after hosts that could not be taken in
+constexpr std::chrono::milliseconds kLongestRest{600'000};
 
 struct LaunchCommand {
     int ranks = 0;      ///< --ranks; 0: one for each slot of the hosts
@@ -54,7 +54,11 @@ OptionTable launch_table(LaunchCommand& c) {
           {"--ranks N", &c.ranks,
            "number of ranks; 0: as many as the hosts have slots, or as mpirun finds cores",
            With{.least = 0, .most = kMostRanks, .expected = "a number from 0"}},
-          {"--hosts FILE", &c.hosts, "a host a line: NAME, or NAME slots=N"},
+          {"--hosts FILE", &c.hosts,
+           "a host a line: NAME, or NAME slots=N. A walk takes in hosts that are added to the "
+           "file, "
+           "and those that answer again, when nobody has moved for five seconds; what else is "
+           "launched takes them in when it is started again"},
           {"--retries N", &c.retries,
            "how often the command is started again when a rank or a host has been lost: it goes "
            "on from what is kept, without hosts that do not answer. After a minute without a loss "
@@ -65,62 +69,6 @@ OptionTable launch_table(LaunchCommand& c) {
           {"Help", SectionTitle{}},
           {"--help", answered, "this text"},
           {"--version", answered, "the version of Lightwalk"}}}};
-}
-
-struct Host {
-    std::string name;
-    int slots = 1;
-};
-
-/// Throws InputError, with the line, for what is no host.
-std::vector<Host> read_hosts(const std::string& file) {
-    std::vector<Host> hosts;
-    std::istringstream lines(real_files()->read(file));
-    int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        std::istringstream words(line.substr(0, line.find('#')));
-        Host host;
-        if (!(words >> host.name)) continue;
-        for (std::string word; words >> word;) {
-            const std::string slots = "slots=";
-            const bool good =
-                word.starts_with(slots) &&
-                std::sscanf(word.c_str() + slots.size(), "%d", &host.slots) == 1 &&  // NOLINT
-                host.slots > 0 && host.slots <= kMostRanks;
-            if (!good)
-                throw InputError({file, number},
-                                 "expected NAME or NAME slots=N, found \"" + word + '"');
-        }
-        hosts.push_back(host);
-    }
-    if (hosts.empty()) throw InputError({file, 0}, "names no host");
-    return hosts;
-}
-
-/// Whether a machine is there: it takes a connection to where ssh listens, or refuses it.
-bool answers(const std::string& name) {
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo* found = nullptr;
-    if (getaddrinfo(name.c_str(), "22", &wanted, &found) != 0) return false;
-    bool answered = false;
-    for (const addrinfo* at = found; at != nullptr && !answered; at = at->ai_next) {
-        const FileDescriptor socket(
-            ::socket(at->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-        if (!socket) continue;
-        int error = connect(socket.get(), at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
-        if (error == EINPROGRESS) {
-            pollfd waiting{socket.get(), POLLOUT, 0};
-            socklen_t size = sizeof error;
-            if (poll(&waiting, 1, kAnswerPatience) <= 0 ||
-                getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size) != 0)
-                error = ETIMEDOUT;
-        }
-        answered = error == 0 || error == ECONNREFUSED;
-    }
-    freeaddrinfo(found);
-    return answered;
 }
 
 /// A setting of Open MPI, unless the user has made it.
@@ -145,17 +93,57 @@ void settle_mpi() {
     set_by_default("PMIX_MCA_gds", "hash");
 }
 
-/// Waits for the process, and hands on to it what would end this one. Sets `interrupted` then.
-int wait_for(pid_t process, const sigset_t& signals, bool& interrupted) {
-    for (int how = 0;;) {
-        const pid_t ended = waitpid(process, &how, WNOHANG);
-        if (ended == process || (ended < 0 && errno != EINTR)) return how;
-        siginfo_t what{};
-        if (sigwaitinfo(&signals, &what) < 0 || what.si_signo == SIGCHLD) continue;
-        interrupted = true;
-        // Ctrl-C reaches all processes of the terminal's group.
-        if (what.si_signo == SIGTERM || what.si_code == SI_USER) kill(process, what.si_signo);
-    }
+/// What `walk` says of who may open its page, by its words.
+WebServerOptions server_options(const Words& words) {
+    ServeCommand serve;
+    const OptionTable table({"walk", kWalk}, {serve_option_rows(serve)});
+    OptionWords line(words);
+    while (line.at_option())
+        if (!table.take(line)) line.skip(1);
+    serve.server.token = std::getenv(kWalkToken);  // NOLINT: there is one thread
+    return serve.server;
+}
+
+std::string machine_name() {
+    std::array<char, 256> name{};
+    (void)gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+/// By what mpirun has written: "rank 2 was killed"; "": it tells of no rank.
+std::string lost_rank(const std::string& last_words) {
+    static const std::regex kTold(
+        R"(process rank\s+(\d+)\s+with PID \d+ on node\s+(\S+)\s+exited on\s+signal\s+(\d+))");
+    std::smatch found;
+    if (!std::regex_search(last_words, found, kTold)) return {};
+    const std::string signal = found[3].str();
+    return "rank " + found[1].str() + (found[2] == machine_name() ? "" : " on " + found[2].str()) +
+           (signal == std::to_string(SIGKILL) ? " was killed" : " was ended by signal " + signal);
+}
+
+std::string joined(const Words& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+    return text;
+}
+
+Words names_without(const LaunchHosts& hosts, const LaunchHosts& others) {
+    Words names;
+    for (const LaunchHost& host : hosts)
+        if (std::ranges::find(others, host.name, &LaunchHost::name) == others.end())
+            names.push_back(host.name);
+    return names;
+}
+
+std::string change_words(const LaunchHosts& before, const LaunchHosts& now) {
+    const Words gone = names_without(before, now), come = names_without(now, before);
+    std::string words;
+    if (!come.empty()) words = joined(come) + (come.size() > 1 ? " are" : " is") + " there";
+    if (!come.empty() && !gone.empty()) words += ", ";
+    if (!gone.empty())
+        words += joined(gone) + (gone.size() > 1 ? " are" : " is") + " not to be used any more";
+    return words.empty() ? "hosts have other slots" : words;
 }
 
 class Launch {
@@ -164,38 +152,34 @@ class Launch {
         : options_(std::move(options)), command_(std::move(command)) {
         std::error_code error;
         program_ = std::filesystem::canonical("/proc/self/exe", error).string();
-        if (!options_.hosts.empty()) hosts_ = read_hosts(options_.hosts);
+        if (!options_.hosts.empty()) hosts_ = read_launch_hosts(options_.hosts);
         const bool picture = command_.front() == "render";
         walks_ = command_.front() == "walk";
         can_go_on_ = walks_ || command_.front() == "animate" || (picture && has("--checkpoint"));
-        if (walks_ && is_any_port())
-            throw UsageError("option --port: expected a number: pages look for it again");
         if (picture && !can_go_on_ && options_.retries > 0)
             throw UsageError("option --retries: expected --checkpoint FILE behind render");
         if (!can_go_on_) options_.retries = 0;
-        sigemptyset(&signals_);
-        for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) sigaddset(&signals_, signal);
     }
 
     int run() {
         settle_mpi();
-        if (walks_) set_by_default(kWalkToken, make_secret().c_str());
-        sigset_t before{};
-        pthread_sigmask(SIG_BLOCK, &signals_, &before);
-        int status = kFailureStatus;
-        bool again = false, interrupted = false;
-        for (int retry = 0;; ++retry, again = true) {
+        const ChildSignals signals;
+        if (walks_) open_head();
+        for (int retry = 0;;) {
             const auto begin = std::chrono::steady_clock::now();
-            const int how = wait_for(start(again, before), signals_, interrupted);
-            if (std::chrono::steady_clock::now() - begin > kLongRun) retry = 0;
-            status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
-            const bool done = status == kSuccessStatus || status == kUsageStatus || interrupted;
-            if (done || retry == options_.retries || !is_loss(status)) break;
-            std::fprintf(stderr, "lightwalk launch: ended with status %d: %s (%d of %d)\n", status,
-                         walks_ ? "begins anew" : "goes on", retry + 1, options_.retries);
+            const ChildProcess::End end = run_once(signals, begun_++ > 0);
+            const bool was_long = std::chrono::steady_clock::now() - begin > kLongRun;
+            if (was_long) retry = 0;
+            const int status = WIFEXITED(end.how) ? WEXITSTATUS(end.how) : 128 + WTERMSIG(end.how);
+            if (end.interrupted) return status;
+            if (exchange_hosts(ready_ || was_long)) continue;
+            const bool done = status == kSuccessStatus || status == kUsageStatus;
+            if (done || retry == options_.retries) return status;
+            const std::string loss = find_loss(end, status);
+            if (loss.empty()) return status;
+            tell(loss,
+                 " (" + std::to_string(++retry) + " of " + std::to_string(options_.retries) + ')');
         }
-        pthread_sigmask(SIG_SETMASK, &before, nullptr);
-        return status;
     }
 
   private:
@@ -203,26 +187,33 @@ class Launch {
         return std::ranges::find(command_, word) != command_.end();
     }
 
-    [[nodiscard]] bool is_any_port() const {
-        const auto at = std::ranges::find(command_, "--port");
-        return at != command_.end() && at + 1 != command_.end() && *(at + 1) == "0";
+    /// From here on there are several threads.
+    void open_head() {
+        set_by_default(kWalkToken, make_secret().c_str());
+        (void)setenv(kWalkHead, machine_name().c_str(), 1);  // NOLINT: there is one thread
+        head_.emplace(server_options({command_.begin() + 1, command_.end()}), "starting the ranks");
+        if (!hosts_.empty()) watch_.emplace(options_.hosts, hosts_);
+        std::printf("%s\n", head_->url().c_str());
+        std::fflush(stdout);
+    }
+
+    [[nodiscard]] int ranks() const {
+        int slots = 0;
+        for (const LaunchHost& host : hosts_) slots += host.slots;
+        return slots > 0 && options_.ranks > 0 ? std::min(slots, options_.ranks)
+                                               : std::max(slots, options_.ranks);
     }
 
     [[nodiscard]] Words words_of(bool again) const {
         Words words{"mpirun"};
-        int slots = 0;
         std::string list;
-        for (const Host& host : hosts_) {
-            slots += host.slots;
+        for (const LaunchHost& host : hosts_)
             list += (list.empty() ? "" : ",") + host.name + ':' + std::to_string(host.slots);
-        }
         if (!hosts_.empty()) words.insert(words.end(), {"--host", list});
-        const int ranks = slots > 0 && options_.ranks > 0 ? std::min(slots, options_.ranks)
-                                                          : std::max(slots, options_.ranks);
-        if (ranks > 0) words.insert(words.end(), {"-n", std::to_string(ranks)});
-        if (!hosts_.empty() && std::getenv("RAYPATH") != nullptr)  // NOLINT: there is one thread
+        if (ranks() > 0) words.insert(words.end(), {"-n", std::to_string(ranks())});
+        if (!hosts_.empty() && std::getenv("RAYPATH") != nullptr)  // NOLINT: nobody writes it
             words.insert(words.end(), {"-x", "RAYPATH"});
-        if (!hosts_.empty() && walks_) words.insert(words.end(), {"-x", kWalkToken});
+        if (walks_) words.insert(words.end(), {"-x", kWalkToken, "-x", kWalkHead});
         std::istringstream more(options_.more);
         for (std::string word; more >> word;) words.push_back(word);
         words.insert(words.end(), {program_, command_.front()});
@@ -231,47 +222,130 @@ class Launch {
         return words;
     }
 
-    /// @param mask  of signals, for the process
-    [[nodiscard]] pid_t start(bool again, const sigset_t& mask) const {
-        Words words = words_of(again);
-        std::vector<char*> texts;
-        for (std::string& word : words) texts.push_back(word.data());
-        texts.push_back(nullptr);
-        posix_spawnattr_t attributes{};
-        posix_spawnattr_init(&attributes);
-        posix_spawnattr_setsigmask(&attributes, &mask);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-        pid_t process = 0;
-        const int error =
-            posix_spawnp(&process, texts[0], nullptr, &attributes, texts.data(), environ);
-        posix_spawnattr_destroy(&attributes);
-        if (error != 0)
-            throw InputError("mpirun cannot be started: " + std::generic_category().message(error) +
-                             "; it is in Debian's package openmpi-bin");
-        return process;
+    ChildProcess::End run_once(const ChildSignals& signals, bool again) {
+        ready_ = pausing_ = false;
+        std::optional<ChildProcess> run;
+        ChildProcess::Output output;
+        if (walks_) output.take_line = [this](std::string_view line) { return meet(line); };
+        if (watch_) output.tick = [this, &run] { take_in(*run); };
+        try {
+            run.emplace(words_of(again), signals, std::move(output));
+        } catch (const std::system_error& error) {
+            throw InputError(std::string(error.what()) + "; it is in Debian's package openmpi-bin");
+        }
+        return run->wait();
     }
 
-    /// Whether a rank was killed, or a host is gone: these are left out from now on. What ends by
-    /// itself with a status of its own would do so again.
-    bool is_loss(int status) {
-        constexpr int kKilled = 128;
-        const std::size_t before = hosts_.size();
-        std::erase_if(hosts_, [](const Host& host) {
-            if (answers(host.name)) return false;
-            std::fprintf(stderr, "lightwalk launch: %s does not answer: goes on without it\n",
-                         host.name.c_str());
+    /// Whether rank 0 says where its web server is: "http://HOST:PORT/?token=TOKEN".
+    bool meet(std::string_view line) {
+        static const std::regex kAddress(R"(http://([^/:]+):(\d+)/\?token=(\S+))");
+        const std::string text(line);
+        std::smatch found;
+        if (ready_ || !std::regex_search(text, found, kAddress)) return false;
+        ready_ = true;
+        // Rank 0 is on the first host, whose name in the list is one that is known here.
+        const bool here = found[1] == "127.0.0.1" || hosts_.empty();
+        head_->begin_run(here ? found[1].str() : hosts_.front().name,
+                         static_cast<std::uint16_t>(std::stoul(found[2].str())), found[3].str());
+        return true;
+    }
+
+    /// Ends the run where there are other hosts to go on with, and nobody would mind.
+    void take_in(const ChildProcess& run) {
+        if (pausing_ || !ready_ || head_->quiet() < kPause) return;
+        std::optional<LaunchHosts> better = watch_->better();
+        if (!better) return;
+        next_ = std::move(*better);
+        pausing_ = true;
+        run.terminate();
+    }
+
+    /// After a run's end: whether the next one is on other hosts, without any loss.
+    bool exchange_hosts(bool came_up) {
+        if (pausing_) {
+            before_ = std::exchange(hosts_, next_);
+            watch_->use(hosts_);
+            tell(change_words(before_, hosts_));
             return true;
-        });
-        if (before > 0 && hosts_.empty()) throw InputError({options_.hosts, 0}, "no host answers");
-        return status > kKilled || hosts_.size() < before;
+        }
+        const LaunchHosts before = std::exchange(before_, {});
+        if (came_up) rest_ = kRest;
+        if (came_up || before.empty()) return false;
+        const Words come = names_without(hosts_, before);
+        hosts_ = before;
+        if (watch_) watch_->use(hosts_, rest_);
+        rest_ = std::min(2 * rest_, kLongestRest);
+        tell("no ranks can be started" + (come.empty() ? "" : " on " + joined(come)));
+        return true;
+    }
+
+    /// Who is lost; "": nobody, and what ended by itself would do so again. Hosts that do not
+    /// answer are left out from now on, and those that do are taken in.
+    std::string find_loss(const ChildProcess::End& end, int status) {
+        constexpr int kKilled = 128;
+        const Words gone = hosts_.empty() ? Words() : leave_out_lost();
+        if (!gone.empty()) return joined(gone) + (gone.size() > 1 ? " are lost" : " is lost");
+        if (status <= kKilled) return {};
+        std::string rank = lost_rank(end.last_words);
+        if (!rank.empty()) return rank;
+        return WIFSIGNALED(end.how) ? "mpirun was killed"
+                                    : "ended with status " + std::to_string(status);
+    }
+
+    /// Their names.
+    Words leave_out_lost() {
+        const LaunchHosts there = answering(wanted_hosts(), kAnswerPatience);
+        Words gone = names_without(hosts_, there);
+        for (const std::string& name : gone)
+            std::fprintf(stderr, "lightwalk launch: %s does not answer: goes on without it\n",
+                         name.c_str());
+        if (there.empty()) throw InputError({options_.hosts, 0}, "no host answers");
+        if (!names_without(there, hosts_).empty()) {
+            before_ = hosts_;
+            std::erase_if(before_, [&](const LaunchHost& host) {
+                return std::ranges::find(gone, host.name) != gone.end();
+            });
+        }
+        hosts_ = there;
+        if (watch_) watch_->use(hosts_);
+        return gone;
+    }
+
+    /// Those of the file, as it is now; those in use, where it cannot be read.
+    [[nodiscard]] LaunchHosts wanted_hosts() const {
+        try {
+            return read_launch_hosts(options_.hosts);
+        } catch (const InputError& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+            return hosts_;
+        }
+    }
+
+    /// The user, and whoever sees the page.
+    void tell(const std::string& why, const std::string& count = {}) {
+        std::string next = "goes on";
+        if (walks_) {
+            next = "the walk begins anew";
+            if (ranks() > 0) next += " with " + std::to_string(ranks()) + " ranks";
+            head_->end_run(why + ": " + next);
+        }
+        std::fprintf(stderr, "lightwalk launch: %s: %s%s\n", why.c_str(), next.c_str(),
+                     count.c_str());
     }
 
     LaunchCommand options_;
     Words command_;
     std::string program_;
-    std::vector<Host> hosts_;
+    LaunchHosts hosts_;   ///< in use
+    LaunchHosts next_;    ///< to go on with, once this run has ended
+    LaunchHosts before_;  ///< to go back to, where no run comes up on those in use
+    std::chrono::milliseconds rest_ = kRest;  ///< after that, until hosts are taken in again
+    int begun_ = 0;                           ///< number of runs
     bool can_go_on_ = false, walks_ = false;
-    sigset_t signals_{};
+    bool ready_ = false;    ///< the run's web server is there
+    bool pausing_ = false;  ///< the run ends as other hosts are there
+    std::optional<WalkHead> head_;
+    std::optional<HostWatch> watch_;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ export function make_counters(session, navigator, camera, decoder) {
         last_time: null,
         state: {}, ///< the server's newest `state` message
         errors: [],
+        interruptions: [], ///< why the walk began anew, each time
         scene: "",
         beside: null, ///< what is compared with the walk: {frames, final, at_rest, state, session}; null: nothing
         ready: false, ///< the scene is loaded and its picture on the screen

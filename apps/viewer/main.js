@@ -33,7 +33,7 @@ import { UnderPointer } from "./under_pointer.js";
 import { ViewSender } from "./view_sender.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
-import { quantity } from "./words.js";
+import { quantity, sentence } from "./words.js";
 
 const picture = by_id("picture");
 
@@ -42,6 +42,7 @@ let home = null; // the first view of a scene that names no views
 let greeted = false; // whether a server has ever sent `welcome`
 let welcomed = false; // whether the server has sent `welcome` on this connection
 let awaiting_picture = true;
+let interruption = ""; // why the walk begins anew; "": it does not
 let max_size = [4096, 4096];
 let display_number = 0; // of the newest settings of the display; frames that are after them have it, too
 
@@ -95,6 +96,7 @@ const session = new Session(session_id(), camera.available, screen, {
         counters.errors.push(text);
         notice(text, true);
     },
+    interrupted,
     bye: ({ reason }) => cover(reason || "The server says goodbye."),
 });
 const counters = make_counters(session, navigator, camera, screen.decoder);
@@ -372,15 +374,29 @@ function scene_failed({ messages }) {
 }
 
 function lost(reason, wait) {
-    welcomed = false;
-    roles.lost();
-    plan.forget();
-    isolux.outdate("the connection is lost");
-    counters.ready = false;
+    forget_walk("the connection is lost");
     const words =
         reason ||
         (greeted ? "The connection to the server is lost." : "No answer from the server.");
     cover(`${words} Trying again${wait >= 1000 ? ` in ${Math.round(wait / 1000)} s` : ""}…`);
+}
+
+/** Those who draw the walk are lost. The connection stays, and who draws it anew says `welcome`. */
+function interrupted({ text }) {
+    session.latency.forget();
+    forget_walk("the walk begins anew");
+    interruption = sentence(text);
+    counters.interruptions.push(interruption);
+    cover(interruption);
+}
+
+/** What the page awaited of the walk does not come any more. */
+function forget_walk(why) {
+    welcomed = false;
+    roles.lost();
+    plan.forget();
+    isolux.outdate(why);
+    counters.ready = false;
 }
 
 function role_changed(driving) {
@@ -421,6 +437,8 @@ function drawn(frame, depth, told) {
         awaiting_picture = false;
         counters.ready = true;
         uncover();
+        if (interruption) notice(interruption);
+        interruption = "";
     }
     draw_camera();
     redraw();

@@ -33,6 +33,9 @@ export function round_number(value) {
 
 export const percent = (share) => `${Math.round(share * 100)}${kThin}%`;
 
+/** A text that the server begins with a small letter. */
+export const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
 /** A rate of rays: 2.4 M, 310 k. */
 export function many(value) {
     if (!Number.isFinite(value)) return "–";

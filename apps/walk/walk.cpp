@@ -1,5 +1,8 @@
 // lightwalk walk: light in the browser. A web server on a thread of its own, and the frames.
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -57,8 +60,16 @@ View view_of(const Scene& scene) {
 WebServerOptions server_options(const ServeCommand& serve) {
     WebServerOptions options = serve.server;
     options.limits.close_timeout = std::chrono::milliseconds(300);  // Ctrl-C is soon over
-    if (is_loopback(options.address)) return options;
-    // That of `lightwalk launch`, so that pages find a walk that is started again.
+    const char* const head = std::getenv(kWalkHead);                // NOLINT(concurrency-mt-unsafe)
+    if (head != nullptr) {
+        std::array<char, 256> here{};
+        (void)gethostname(here.data(), here.size() - 1);
+        options.address = std::string(here.data()) == head ? "127.0.0.1" : "0.0.0.0";
+        options.port = 0;
+    } else if (is_loopback(options.address)) {
+        return options;
+    }
+    // That of `lightwalk launch`, so that the head is let in.
     constexpr std::size_t kDigits = 32;
     const char* const given = std::getenv(kWalkToken);  // NOLINT(concurrency-mt-unsafe)
     const std::string token = given != nullptr ? given : "";

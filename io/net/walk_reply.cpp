@@ -319,4 +319,8 @@ std::string walk_text(const ByeReply& reply) {
     return text_of({{"type", "bye"}, {"reason", reply.reason}});
 }
 
+std::string walk_text(const InterruptedReply& reply) {
+    return text_of({{"type", "interrupted"}, {"text", reply.text}});
+}
+
 }  // namespace lightwalk

@@ -179,6 +179,10 @@ struct FollowedReply {
 struct ByeReply {
     std::string reason;
 };
+/// `interrupted`: those who draw are lost, or end.
+struct InterruptedReply {
+    std::string text;
+};
 
 [[nodiscard]] std::string walk_text(const WelcomeReply& reply);
 [[nodiscard]] std::string walk_text(const LoadingReply& reply);
@@ -199,5 +203,6 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const RefusedReply& reply);
 [[nodiscard]] std::string walk_text(const FollowedReply& reply);
 [[nodiscard]] std::string walk_text(const ByeReply& reply);
+[[nodiscard]] std::string walk_text(const InterruptedReply& reply);
 
 }  // namespace lightwalk

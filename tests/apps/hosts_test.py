@@ -260,6 +260,55 @@ def case_failure(cluster):
     check("--scene-from rank0" in lines[1], err)
 
 
+def case_walk(cluster):
+    """A walk, whose first rank is on another host than its head, goes on without a host that is cut off, takes it in again when it is back and nobody moves, and
+    follows its file of hosts. The page's connection stays, and tells what has happened."""
+    from walk_server_test import Client
+
+    folder = cluster.folder
+    (folder / "room.rad").write_text(ROOM)
+    hosts = folder / "named"
+    name = lambda *names: hosts.write_text("".join(f"{host} slots=1\n" for host in names))
+    name("second", "third", "first")
+    cluster.run("ip addr add 10.77.0.100/24 dev switch")
+    launch = cluster.start(["launch", "--hosts", str(hosts), "--retries", "9", "walk", "--port", "8080", "--bind", "0.0.0.0", *VIEW, "-n", "1", "room.rad"], launcher=[])
+    try:
+        address = launch.stdout.readline()
+        check(address.startswith("http://first:8080/?token="), address)
+        client = Client(8080, host="10.77.0.1", token=address.strip().split("=")[1])
+        ranks = lambda count: client.until(lambda m: isinstance(m, dict) and m["type"] == "state" and m["ranks"] == count)
+
+        def told(said):
+            client.until(lambda m: isinstance(m, dict) and m["type"] == "interrupted" and said in m["text"])
+
+        def look():
+            client.told("loaded")
+            client.look(position=[0, -6, 2], direction=[0, 1, -.2])
+            client.frame(client.ident)
+
+        look()
+        ranks(3)
+        cluster.cut_off("third")
+        told("third is lost: the walk begins anew with 2 ranks")
+        look()
+        ranks(2)
+        cluster.cut_off("third", False)
+        told("third is there: the walk begins anew with 3 ranks")
+        while True:  # mpirun may not reach at once a host that has just come back
+            look()
+            client.until(lambda m: isinstance(m, dict) and (m["type"] == "state" or m["type"] == "interrupted"))
+            if client.messages[-1].get("ranks") == 3:
+                break
+        name("first", "second")
+        told("third is not to be used any more: the walk begins anew with 2 ranks")
+        look()
+        ranks(2)
+    finally:
+        launch.terminate()
+        errors = launch.communicate()[1]
+    check("begins anew with 2 ranks" in errors, errors)
+
+
 def main():
     enter_namespaces()
     with tempfile.TemporaryDirectory() as folder:

@@ -2,11 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "apps/launch_hosts.h"
 #include "tests/apps/program.h"
 #include "tests/apps/rank_runs.h"
 #include "tests/temporary_folder.h"
@@ -100,12 +102,36 @@ TEST_CASE("launch: mistakes are told before anything is started") {
     CHECK(said({"launch"}, 2).find("expected a command") != std::string::npos);
     CHECK(said({"launch", "info", "room.rad"}, 2).find("expected a command") != std::string::npos);
     CHECK(said({"launch", "--rank", "3", "render"}, 2).find("--ranks") != std::string::npos);
+    CHECK(said({"launch", "walk", "--port", "99999", "room.rad"}, 2).find("--port") !=
+          std::string::npos);
+    CHECK(said({"launch", "walk", "--bind", "nowhere", "room.rad"}, 1)
+              .find("nowhere:8080: expected an address in numbers") != std::string::npos);
     const std::string hosts = folder.write("hosts", "# two\nfirst slots=2\nsecond cores=2\n");
     CHECK(said({"launch", "--hosts", hosts, "animate", "room.rad"}, 1)
               .find(hosts + ":3: expected NAME") != std::string::npos);
     const std::string none = folder.write("none", "# nothing\n");
     CHECK(said({"launch", "--hosts", none, "animate", "room.rad"}, 1).find("names no host") !=
           std::string::npos);
+}
+
+TEST_CASE(
+    "launch: a host is one that answers, and a file of hosts that changes is looked at again") {
+    const TemporaryFolder folder;
+    const LaunchHosts all{{"127.0.0.1", 2}, {"nowhere.invalid", 1}};
+    const LaunchHosts there{all.front()};
+    CHECK(answering(all, std::chrono::seconds(5)) == there);
+    const std::string file = folder.write("hosts", "127.0.0.1 slots=2\nnowhere.invalid\n");
+    REQUIRE(read_launch_hosts(file) == all);
+    HostWatch watch(file, there);
+    folder.write("hosts", "localhost slots=3\n127.0.0.1 slots=2\n");
+    const LaunchHosts more{{"localhost", 3}, {"127.0.0.1", 2}};
+    REQUIRE(comes_true([&] { return watch.better().has_value(); }));
+    CHECK(watch.better() == more);
+    watch.use(more);
+    CHECK_FALSE(watch.better());
+    folder.write("hosts", "localhost\n");
+    REQUIRE(comes_true([&] { return watch.better().has_value(); }));
+    CHECK(watch.better() == LaunchHosts{{"localhost", 1}});
 }
 
 }  // namespace lightwalk::test

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""A walk that `lightwalk launch` started survives the loss of its ranks: launched_walk_test.py PROGRAM [SCENE VIEW]
+"""A walk that `lightwalk launch` started survives the loss of those who draw it: launched_walk_test.py PROGRAM [SCENE VIEW]
 
-SCENE and VIEW: files, in place of a small room. Each rank is killed in turn; a client connects again as the page does, tells its view, and gets the picture that it had."""
-import os, pathlib, shutil, signal, socket, subprocess, sys, tempfile, time
+SCENE and VIEW: files, in place of a small room. Each rank is killed in turn, then mpirun. A client stays connected all the time, is told what has happened, tells
+its view, dimmers and probes when it is welcomed again, as the page does, and sees and measures what it did before. Who comes meanwhile gets an answer."""
+import os, pathlib, re, shutil, signal, socket, subprocess, sys, tempfile, time, urllib.request
 
-from walk_server_test import PATIENCE, ROOM, WORDS, Client, Closed
+from walk_server_test import PATIENCE, ROOM, WORDS, Client
 
 RANKS = 4
 
@@ -16,16 +17,21 @@ def free_port():
 
 
 def ranks_of(port):
-    """Processes that run the walk, but for those that started them."""
-    found = []
+    """Processes that run the walk, by their ranks, but for those that started them."""
+    found = {}
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             words = (process / "cmdline").read_bytes().split(b"\0")
+            if words[1:2] == [b"walk"] and str(port).encode() in words:
+                rank = re.search(rb"OMPI_COMM_WORLD_RANK=(\d+)", (process / "environ").read_bytes())
+                found[int(process.name)] = int(rank[1]) if rank else None
         except OSError:
             continue
-        if words[1:2] == [b"walk"] and str(port).encode() in words:
-            found.append(int(process.name))
-    return sorted(found)
+    return found
+
+
+def children(process):
+    return [int(child) for child in pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()]
 
 
 def view_of(file):
@@ -35,14 +41,65 @@ def view_of(file):
     return {name: [float(word) for word in words[words.index(option) + 1:][:3]] for option, name in names.items() if option in words}
 
 
-def connected(port):
+def soon(happens, what):
     end = time.monotonic() + PATIENCE
+    while not happens():
+        assert time.monotonic() < end, what
+        time.sleep(0.05)
+
+
+def visit(port, session="fedcba9876543210"):
+    """Somebody else opens the page now: gets it, and is told how the walk is."""
+    with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=PATIENCE) as answer:
+        assert b"<title>" in answer.read()
+    other = Client(port, session)
+    other.until(lambda m: isinstance(m, dict) and m["type"] in ("loading", "welcome"))
+    return other
+
+
+class Watched:
+    """What one client says to each run, and sees of it."""
+
+    def __init__(self, client, place, dims):
+        self.client, self.place, self.dims = client, place, dims
+
+    def tell(self):
+        """After a welcome: what the page tells again. Returns when the first picture is there."""
+        client = self.client
+        groups = client.told("loaded").get("lights", [])
+        if self.dims:
+            client.socket.send({"type": "lights", "levels": [{"name": groups[0], "level": .25, "rgb": [1, 1, 1]}]})
+        client.look(**self.place)
+        client.frame(client.ident)
+        return time.monotonic()
+
+    def see(self):
+        """What is seen and measured of a view that rests."""
+        client = self.client
+        client.until(lambda m: hasattr(m, "at_rest") and m.at_rest)
+        picked = client.ask("pick", "picked", x=.5, y=.4)
+        pin = {"id": 7, "position": picked["position"], "normal": picked["normal"]}
+        client.socket.send({"type": "probes", "probes": [pin]})
+        probes = client.told("probes")["probes"]
+        return {key: value for key, value in picked.items() if key != "id"}, probes
+
+
+def lose(launch, client, port, victim, said):
+    """Kills a process; returns when."""
+    os.kill(victim, signal.SIGKILL)
+    killed = time.monotonic()
+    told = client.until(lambda m: isinstance(m, dict) and m["type"] == "interrupted" and said in m["text"])
+    assert "the walk begins anew with 4 ranks" in told["text"], told
+    visit(port).socket.close()
+    client.told("welcome", driver=True)
+    return killed
+
+
+def farewell(client):
     while True:
-        try:
-            return Client(port)
-        except OSError:
-            assert time.monotonic() < end, "nobody serves the page any more"
-            time.sleep(0.05)
+        message = client.socket.receive()
+        if isinstance(message, dict) and message["type"] == "bye":
+            return message["reason"]
 
 
 def main(program, scene=None, view=None):
@@ -51,8 +108,9 @@ def main(program, scene=None, view=None):
         return 77
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0:handle_sigill=1")
     with tempfile.TemporaryDirectory() as folder:
-        words = ["-vf", view] if view else WORDS.split()
+        words = ["-vf", view] if view else [*WORDS.split(), "--light-group", "auto"]
         place = view_of(pathlib.Path(view)) if view else {"position": [1, -3, 1.5]}
+        dims = scene is None
         if scene is None:
             scene = pathlib.Path(folder) / "room.rad"
             scene.write_text(ROOM)
@@ -60,41 +118,34 @@ def main(program, scene=None, view=None):
         # Sockets of its own: others' runs of MPI may take common ones away (open-mpi/ompi issue 8510).
         mpirun = f"--oversubscribe --bind-to none --mca orte_tmpdir_base {folder}"
         launch = subprocess.Popen([program, "launch", "--ranks", str(RANKS), "--retries", "9", "--mpirun", mpirun, "walk", "--port", str(port), "-n", "1",
-                                   *words, scene], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                   *words, scene], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         try:
-            pictures, times = [], []
-            for victim in range(RANKS + 1):
-                client = connected(port)
-                client.told("loaded")
-                client.look(**place)
-                client.frame(1)
-                drawn = time.monotonic()
-                client.until(lambda m: hasattr(m, "at_rest") and m.at_rest)
-                pictures.append(client.ask("pick", "picked", x=.5, y=.5))
-                if victim > 0:
-                    times[-1] = drawn - times[-1]
-                if victim == RANKS:
-                    break
+            assert launch.stdout.readline() == f"http://127.0.0.1:{port}/\n"
+            client = visit(port, "0123456789abcdef")  # before there are ranks
+            watched = Watched(client, place, dims)
+            watched.tell()
+            expected, times = watched.see(), []
+            for victim in range(RANKS):
                 ranks = ranks_of(port)
-                assert len(ranks) == RANKS, ranks
-                os.kill(ranks[victim], signal.SIGKILL)
-                times.append(time.monotonic())
-                try:
-                    client.until(lambda _: False)
-                except (Closed, OSError):
-                    pass
+                assert sorted(ranks.values()) == list(range(RANKS)), ranks
+                process = next(process for process, rank in ranks.items() if rank == victim)
+                killed = lose(launch, client, port, process, f"rank {victim} was killed")
+                times.append(watched.tell() - killed)
+                seen = watched.see()
+                assert seen == expected, (seen, expected)
+            before = ranks_of(port)
+            lose(launch, client, port, children(launch.pid)[0], "mpirun was killed")
+            watched.tell()
+            assert watched.see() == expected
+            soon(lambda: not set(before) & set(ranks_of(port)), "ranks without mpirun are left")
             assert launch.poll() is None
-            strip = lambda picked: {key: value for key, value in picked.items() if key != "id"}
-            assert all(strip(one) == strip(pictures[0]) for one in pictures), pictures
             print(f"drawn again {', '.join(f'{seconds:.2f}' for seconds in times)} s after a rank was killed")
         finally:
             launch.terminate()
             errors = launch.communicate(timeout=PATIENCE)[1]
-        assert errors.count("begins anew") == RANKS, errors
-        end = time.monotonic() + PATIENCE
-        while ranks_of(port):
-            assert time.monotonic() < end, "ranks are left"
-            time.sleep(0.05)
+        assert errors.count("begins anew") == RANKS + 1, errors
+        assert farewell(client) == "the server ends"
+        soon(lambda: not ranks_of(port), "ranks are left")
     return 0
 
 

@@ -65,8 +65,8 @@ class Server:
 
 
 class Client:
-    def __init__(self, port, session="0123456789abcdef", **more):
-        self.socket = WebSocket("127.0.0.1", port, timeout=PATIENCE)
+    def __init__(self, port, session="0123456789abcdef", host="127.0.0.1", token="", **more):
+        self.socket = WebSocket(host, port, f"/walk?token={token}" if token else "/walk", timeout=PATIENCE)
         self.ident, self.messages = 0, []
         self.socket.send({"type": "hello", "session": session, **more})
 

@@ -3,7 +3,8 @@
 //     node fake_server.mjs --npm FOLDER [--port N] [--log]
 //
 // FOLDER has node_modules with ws and jpeg-js. GET /fake/NAME makes it misbehave: fail (the scene
-// cannot be read), reload, drop (breaks connections), dumb and speak (no frames meanwhile), refuse, join
+// cannot be read), reload, drop (breaks connections), interrupt and
+// resume (all that was told is forgotten), dumb and speak (no frames meanwhile), refuse, join
 // and leave (another driver), edit, spoil and mend (files of the scene). The answer is how many plans were asked for.
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
@@ -423,6 +424,20 @@ const pranks = {
     },
     alone: () => tell_all({ ...kLoaded, beside: { refused: "many processes draw this walk" } }),
     drop_beside: () => beside.socket?.terminate(),
+    interrupt: () => {
+        lights = { type: "lights", levels: [] };
+        time = { type: "time", time: null };
+        [edited, wish, probes] = [null, null, []];
+        tell_all({
+            type: "interrupted",
+            text: "rank 2 was killed: the walk begins anew with 4 ranks",
+        });
+    },
+    resume: () =>
+        clients.forEach((client, socket) => {
+            Object.assign(client, { drawn: -1, strip: 0, busy: false, frame: 0 });
+            greet(socket, client, client.session);
+        }),
     edit: () =>
         tell_all({ ...kFollowed, files: ["room.rad"], materials: 2, surfaces: 1, kept: 0.8 }),
     spoil: () =>

@@ -31,6 +31,7 @@ import {
 } from "./page_helpers.mjs";
 import { camera_steps } from "./page_camera.mjs";
 import { file_steps } from "./page_files.mjs";
+import { interruption_steps } from "./page_interrupted.mjs";
 import { isolux_steps } from "./page_isolux.mjs";
 import { lamp_steps } from "./page_lamps.mjs";
 import { material_steps } from "./page_materials.mjs";
@@ -87,6 +88,7 @@ const steps = {
     ...material_steps(address, args.npm),
     ...time_steps(address),
     ...file_steps(prank, args.npm),
+    ...interruption_steps(address, prank),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);
