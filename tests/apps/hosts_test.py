@@ -8,7 +8,6 @@ Needs root, and a system that lets it make namespaces; exits with 77 (skipped) e
 
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -263,7 +262,7 @@ def case_failure(cluster):
 def case_walk(cluster):
     """A walk, whose first rank is on another host than its head, goes on without a host that is cut off, takes it in again when it is back and nobody moves, and
     follows its file of hosts. The page's connection stays, and tells what has happened."""
-    from walk_server_test import Client
+    from scripted_walk import Client
 
     folder = cluster.folder
     (folder / "room.rad").write_text(ROOM)

@@ -5,7 +5,7 @@ SCENE and VIEW: files, in place of a small room. Each rank is killed in turn, th
 its view, dimmers and probes when it is welcomed again, as the page does, and sees and measures what it did before. Who comes meanwhile gets an answer."""
 import os, pathlib, re, shutil, signal, socket, subprocess, sys, tempfile, time, urllib.request
 
-from walk_server_test import PATIENCE, ROOM, WORDS, Client
+from scripted_walk import PATIENCE, ROOM, WORDS, Client
 
 RANKS = 4
 

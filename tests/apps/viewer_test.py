@@ -13,7 +13,7 @@ PICTURES gets a screenshot of each step, or of those that fail. Exit status 77: 
 """
 import json, pathlib, re, shutil, subprocess, sys, tempfile
 
-from walk_server_test import Server
+from scripted_walk import Server
 
 VIEWER = pathlib.Path(__file__).resolve().parent / "viewer"
 

@@ -3,112 +3,13 @@
 
     walk_server_test.py PROGRAM [rest|clean|light|intervals|dimmed|changed|roles|mended|followed|rad_file|returning|slow|abuse|beside|ranks ...]
 """
-import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
+import base64, os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "perf"))
-
-from walk.misbehaviour import VIEW, misbehave  # noqa: E402
-from walk.slow_link import SlowLink  # noqa: E402
-from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
-
-ROOM = """void plastic grey 0 0 5 .5 .5 .5 0 0
-void light lamp 0 0 3 10 10 10
-void glow panel 0 0 4 2 2 2 0
-grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
-grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
-grey sphere ball 0 0 4 -1 2 .7 .7
-panel polygon screen 0 0 12  1 5.9 .5  3 5.9 .5  3 5.9 2.5  1 5.9 2.5
-lamp polygon light 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
-"""
-WORDS = "-vtv -vp 0 -4 1.5 -vd 0 1 -.05 -vu 0 0 1 -vh 60 -vv 46.8"
-SIZE = (160, 120)
-PATIENCE = float(os.environ.get("LIGHTWALK_TEST_PATIENCE", "60"))  # [s]
-
-
-class Server:
-    """The program with a scene of its own, until the end of the block."""
-
-    def __init__(self, program, words=(), scene=ROOM, launcher=(), rad=None):
-        self.launcher = launcher
-        self.folder = tempfile.TemporaryDirectory()
-        self.scene = pathlib.Path(self.folder.name) / "room.rad"
-        self.scene.write_text(scene)
-        self.rad = None
-        if rad is not None:
-            self.rad = self.scene.parent / "room.rif"
-            self.rad.write_text(rad)
-        self.program, self.words = program, words
-
-    def __enter__(self):
-        threads = [] if "-n" in self.words else ["-n", "2"]
-        self.process = subprocess.Popen([*self.launcher, self.program, "walk", "--port", "0", *threads, *WORDS.split(), *self.words, self.rad or self.scene],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder.name)
-        self.address = self.process.stdout.readline().strip()
-        assert self.address.startswith("http://"), self.process.stderr.read()
-        self.port = int(self.address.split(":")[2].split("/")[0])
-        return self
-
-    def __exit__(self, kind, *_):
-        alive = self.process.poll() is None
-        self.process.terminate()
-        errors = self.process.communicate(timeout=PATIENCE)[1]
-        self.folder.cleanup()
-        assert alive, f"the server has ended: {errors}"
-        # 130, where a build is slow: it was deep in a pixel, and an interrupt waits no longer than .7 s.
-        good = (0, 130) if PATIENCE > 60 else (0,)
-        assert kind is not None or self.launcher or self.process.returncode in good, (self.process.returncode, errors)
-
-    def get(self, path):
-        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=PATIENCE) as answer:
-            return answer.read()
-
-
-class Client:
-    def __init__(self, port, session="0123456789abcdef", host="127.0.0.1", token="", **more):
-        self.socket = WebSocket(host, port, f"/walk?token={token}" if token else "/walk", timeout=PATIENCE)
-        self.ident, self.messages = 0, []
-        self.socket.send({"type": "hello", "session": session, **more})
-
-    def look(self, **changes):
-        self.ident += 1
-        self.socket.send({"type": "view", "id": self.ident, "view": {**VIEW, **changes}, "width": SIZE[0], "height": SIZE[1],
-                          "moving": False, "walk": False})
-
-    def enter(self):
-        """Once the scene is there: the first picture."""
-        self.told("loaded")
-        self.look()
-        self.frame(1)
-
-    def take(self):
-        message = self.socket.receive()
-        if isinstance(message, bytes):
-            frame = Frame(message)
-            self.socket.send({"type": "ack", "frame": frame.number})
-            return frame
-        self.messages.append(message)
-        return message
-
-    def until(self, wanted):
-        """The next message or frame of which wanted() is true."""
-        end = time.monotonic() + PATIENCE
-        while time.monotonic() < end:
-            taken = self.take()
-            if wanted(taken):
-                return taken
-        raise AssertionError(f"nothing came of what was waited for; the last messages: {self.messages[-3:]}")
-
-    def told(self, kind, **fields):
-        return self.until(lambda m: isinstance(m, dict) and m["type"] == kind and all(m.get(k) == v for k, v in fields.items()))
-
-    def frame(self, view=0):
-        return self.until(lambda m: isinstance(m, Frame) and m.view >= view)
-
-    def ask(self, kind, answer, **fields):
-        self.ident += 1
-        self.socket.send({"type": kind, "id": self.ident, **fields})
-        return self.told(answer, id=self.ident)
+import walk_light
+from scripted_walk import PATIENCE, ROOM, SIZE, WORDS, Client, Server
+from walk.misbehaviour import VIEW, misbehave
+from walk.slow_link import SlowLink
+from walk.websocket import Closed, Frame, WebSocket
 
 
 def rest(program, words=(), launcher=()):
@@ -155,96 +56,6 @@ def clean(program):
             assert not client.frame(client.ident).denoised
             client.until(lambda m: done(m) and m.denoised != bool(more))
             assert sum("no memory" in m.get("text", "") for m in client.messages) == len(more)
-
-
-def light(program):
-    """What is pointed at: a panel of known luminance, its name, the mean, glare; where nothing is, nothing is hit."""
-    with Server(program) as server:
-        client = Client(server.port)
-        client.enter()
-        picked = client.ask("pick", "picked", x=0.67, y=0.52)
-        assert picked["hit"] and picked["material"] == "panel" and picked["surface"] == "screen", picked
-        assert abs(picked["luminance"] - 358) < 0.02 * 358, picked
-        assert abs(picked["position"][1] - 5.9) < 0.001 and picked["normal"] == [0, -1, 0], picked
-        floor = client.ask("pick", "picked", x=0.5, y=0.1)
-        # Diffuse: the luminance is the illuminance times the reflectance over pi.
-        assert abs(floor["luminance"] - floor["illuminance"] * 0.5 / 3.14159) < 0.05 * floor["luminance"], floor
-        assert not client.ask("pick", "picked", x=0.05, y=0.95)["hit"]
-        mean = client.ask("rectangle", "mean", rect=[0.66, 0.5, 0.68, 0.54])
-        assert abs(mean["luminance"] - 358) < 0.02 * 358 and mean["pixels"] > 0, mean
-        client.socket.send({"type": "probes", "probes": [{"id": 7, "position": floor["position"], "normal": floor["normal"]}]})
-        probe = client.told("probes")["probes"][0]
-        assert probe["id"] == 7 and abs(probe["illuminance"] - floor["illuminance"]) < 0.05 * floor["illuminance"], probe
-        client.ident += 1
-        client.socket.send({"type": "glare", "id": client.ident})
-        glare = client.told("glare", id=client.ident, done=1)
-        assert 0 <= glare["dgp"] <= 1, glare
-        isolux_as_traced(program, server, client)
-
-
-def isolux_as_traced(program, server, client):
-    """The illuminances on a level plane are those that `trace -I` computes at its points."""
-    client.ident += 1
-    client.socket.send({"type": "isolux", "id": client.ident, "position": [0, -4, 1.5], "height": 0.75})
-    grid = client.told("isolux", id=client.ident, done=1)
-    columns, rows = grid["columns"], grid["rows"]
-    assert 30 <= columns <= 35 and rows == 48 and grid["normal"] == [0, 0, 1], grid
-    values = struct.unpack(f"<{columns * rows}f", base64.b64decode(grid["values"]))
-    place = lambda k: [o + k % columns * a + k // columns * b for o, a, b in zip(grid["origin"], grid["across"], grid["along"])]  # noqa: E731
-    points = {k: place(k) for k, lux in enumerate(values) if lux == lux}
-    for k in range(columns * rows):  # what is over the floor counts, but for what is within the ball
-        x, y, _ = place(k)
-        assert (k in points) == (abs(x) < 4 and abs(y) < 6 and math.dist(place(k), (-1, 2, 0.7)) > 0.7), place(k)
-    sensors = "".join(f"{x} {y} {z} 0 0 1\n" for x, y, z in points.values())
-    options = "-dt .05 -dc .5 -ds .25 -dr 1"  # those that walk has, as rpict, and trace has not, as rtrace
-    traced = subprocess.run([program, "trace", "-h", "-I", *options.split(), server.scene], input=sensors, capture_output=True, text=True, check=True).stdout
-    lux = [179 * (0.265106 * r + 0.670106 * g + 0.064788 * b) for r, g, b in (map(float, line.split()) for line in traced.splitlines())]
-    mean = sum(lux) / len(lux)
-    worst = max(abs(values[k] - wanted) for k, wanted in zip(points, lux))
-    assert worst < 1e-4 * mean, (worst, mean)
-    assert abs(grid["mean"] - mean) < 1e-4 * mean and grid["mean_95"] < 1e-6 * mean, (grid["mean"], grid["mean_95"], mean)
-    assert abs(grid["least"] - min(lux)) < 1e-4 * mean and abs(grid["most"] - max(lux)) < 1e-4 * mean, (grid["least"], grid["most"])
-    assert grid["least_95"] == grid["most_95"] == 0, grid
-
-
-def intervals(program):
-    """Each number of light comes with its 95 % interval, which narrows at pins and holds what `trace --interval` finds; without chance it is nothing."""
-    options = "-dt .05 -dc .5 -ds .25 -dr 1 -ab 2 -as 0".split()
-    with Server(program, [*options, "-aa", ".15", "-ad", "512"]) as server:
-        client = Client(server.port)
-        client.enter()
-        pins = [[0.5, 0, 0, 0, 0, 1], [2, 5.9999, 0.3, 0, -1, 0]]
-        client.socket.send({"type": "probes", "probes": [{"id": k, "position": pin[:3], "normal": pin[3:]} for k, pin in enumerate(pins)]})
-        first = client.told("probes")
-        last = client.told("probes", settled=1)
-        exact = ["-aa", "0", "-ad", "1024", "-lw", "1e-7", "--interval", "16"]
-        traced = subprocess.run([program, "trace", "-h", "-I", *options, *exact, server.scene], stdout=subprocess.PIPE, text=True, check=True,
-                                input="".join(" ".join(map(str, pin)) + "\n" for pin in pins)).stdout
-        luminous = lambda rgb: 179 * sum(a * b for a, b in zip((0.265106, 0.670106, 0.064788), rgb))  # noqa: E731
-        for early, late, line in zip(first["probes"], last["probes"], traced.splitlines(), strict=True):
-            rgb = [float(word) for word in line.split()]
-            truth, half = luminous(rgb[:3]), luminous(rgb[3:])
-            assert half < 0.01 * truth, (truth, half)
-            for told in (early, late):
-                assert abs(told["illuminance"] - truth) < 2 * told["illuminance_95"] + half, (told, truth)
-            for name in ("illuminance", "luminance"):
-                assert 0 < late[name + "_95"] <= early[name + "_95"] and late[name + "_95"] < 0.02 * late[name], (name, early, late)
-        client.told("state", phase="done")
-        floor = client.ask("pick", "picked", x=0.5, y=0.1)
-        for name in ("luminance", "illuminance"):
-            assert 0 < floor[name + "_95"] < 0.3 * floor[name], floor
-        mean = client.ask("rectangle", "mean", rect=[0.3, 0, 0.7, 0.3])
-        assert 0 < mean["luminance_95"] < 0.1 * mean["luminance"], mean
-        client.ident += 1
-        client.socket.send({"type": "glare", "id": client.ident})
-        glare = client.told("glare", id=client.ident, done=1)
-        assert 0 < glare["dgp_95"] < 0.05, glare
-    with Server(program) as server:  # direct light, whose places are not random
-        client = Client(server.port)
-        client.enter()
-        client.socket.send({"type": "probes", "probes": [{"id": 1, "position": [0.5, 0, 0], "normal": [0, 0, 1]}]})
-        pin = client.told("probes")["probes"][0]
-        assert pin["illuminance"] > 0 and pin["illuminance_95"] == pin["luminance_95"] == 0, pin
 
 
 def dimmed(program, words=(), launcher=()):
@@ -577,7 +388,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, clean, light, intervals, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
+CASES = {case.__name__: case for case in (rest, clean, walk_light.light, walk_light.intervals, dimmed, changed, roles, mended, followed, rad_file, returning, slow, abuse, beside, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

@@ -16,7 +16,8 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "apps"))
 
 from launched_walk_test import PATIENCE, children, free_port, ranks_of, soon, visit  # noqa: E402
-from walk_server_test import ROOM, WORDS, Closed  # noqa: E402
+from scripted_walk import ROOM, WORDS  # noqa: E402
+from walk.websocket import Closed  # noqa: E402
 
 SKIPPED = 77
 # An error of each, and how many calls of the head's first thread are tried.
