@@ -1,5 +1,6 @@
 // Random pictures against stored means: lobes, mist, lamps' places, lens, shutter, indirect light,
-// places in pixels. Each test finds three errors that are planted in it.
+// places in pixels, pixels that a walk's frame takes from the frames before it. Each test finds
+// three errors that are planted in it.
 //
 // LIGHTWALK_UPDATE_MEANS=1 lightwalk_tests --source-file='*/chance/*' makes means.txt anew, which
 // is right after a change that is meant to change pictures, and after no other.
@@ -10,6 +11,8 @@
 #include <map>
 
 #include "core/view/pixel_rays.h"
+#include "parallel/walk/cloud_frames.h"
+#include "parallel/walk/scene_caster.h"
 #include "tests/chance/z_test.h"
 #include "tests/test_scene.h"
 
@@ -42,7 +45,8 @@ struct ChanceCase {
     RenderOptions options = TestScene::exact();
     PixelOptions pixels;
     bool moves = false;
-    int samples = 600;  ///< of each pixel in the test
+    bool reuses = false;  ///< it is the third frame of a walk
+    int samples = 600;    ///< of each pixel in the test
 };
 
 ChanceCase still(const std::string& name, const std::string& text, int samples) {
@@ -93,6 +97,9 @@ std::vector<ChanceCase> all_cases() {
     all.back().pixels.samples = 4;
     all.push_back(still("pixel-jitter", kCheckered + kPanel + kBoard, 800));
     all.back().pixels.jitter = 1;
+    all.push_back(still("reuse", kCheckered + kPanel + kBoard, 800));
+    all.back().options.source_jitter = 1;
+    all.back().reuses = true;
     return all;
 }
 
@@ -108,6 +115,31 @@ View chance_view(double x) {
 /// What is done to the samples of a picture.
 enum class Planted { nothing, pdf, cosine, stale_seed };
 
+/// The third frame of a walk, from points that the first two have left: green, row by row.
+std::vector<double> reused_frame(const TestScene& scene, const PixelOptions& pixels,
+                                 std::uint64_t seed) {
+    const StopFlag never;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    Silence warnings;
+    WorkerContexts contexts(scene.tracer, warnings, 1);
+    const VisibilityProbe visibility(scene.tracer);
+    FrameOptions options;
+    options.width = options.height = kSide;
+    options.pixels = pixels;
+    options.seed = seed;
+    CloudFrames frames(kSide, kSide, {});
+    std::vector<double> values;
+    for (const double x : {0.0, .03, .06}) {
+        SceneCaster caster(scene.tracer, visibility, Camera(chance_view(x)), options, contexts,
+                           never, FrameUse::picture);
+        const CloudFrame& frame = frames.draw(caster.camera(), caster, *executor, never);
+        values.clear();
+        for (const Rgb& pixel : frame.radiance) values.push_back(pixel.g);
+        if (x > 0) CHECK(2 * frame.report.reused > frame.report.pixels);
+    }
+    return values;
+}
+
 /// Means of all pixels, each over samples of seeds of their own.
 std::vector<MeanEstimate> draw(const ChanceCase& c, std::uint64_t seed, int samples,
                                Planted planted = Planted::nothing) {
@@ -118,9 +150,20 @@ std::vector<MeanEstimate> draw(const ChanceCase& c, std::uint64_t seed, int samp
     TraceContext context(scene.tracer, warnings);
     std::vector<SampleSums> sums(kSide * kSide);
     for (int i = 0; i < samples; ++i) {
-        const int fresh = planted == Planted::stale_seed ? i % 10 : i;
+        const auto fresh = static_cast<std::uint64_t>(planted == Planted::stale_seed ? i % 10 : i);
         const PixelRays rays(now, c.moves ? &before : nullptr, kSide, kSide, c.pixels,
-                             seed + static_cast<std::uint64_t>(fresh));
+                             seed + fresh);
+        if (c.reuses) {
+            const std::vector<double> frame = reused_frame(scene, c.pixels, seed + fresh);
+            for (int k = 0; k < kSide * kSide; ++k) {
+                const double slope = std::abs(rays(k % kSide, k / kSide, 0).ray->direction.z);
+                const double error = planted == Planted::pdf      ? 1.02
+                                     : planted == Planted::cosine ? slope
+                                                                  : 1;
+                sums[static_cast<std::size_t>(k)].add(error * frame[static_cast<std::size_t>(k)]);
+            }
+            continue;
+        }
         for (int k = 0; k < kSide * kSide; ++k) {
             double value = 0;
             for (int s = 0; s < rays.samples(); ++s) {
