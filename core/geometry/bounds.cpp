@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lightwalk {
 namespace {
@@ -25,23 +26,53 @@ void extend_by_disc(Bounds& bounds, const Vec3& center, const Vec3& normal, doub
     bounds.extend(center + reach);
 }
 
-/// How far hits may lie outside a polygon along the axis that the inside test ignores [m]. A point
-/// counts as on an edge where the triangle of both has less than kEpsilon / 2 of area, and lies in
-/// the edge's own rectangle: the shorter the edge, the farther off it, and along a slope that is up
-/// or down.
-double reach_off_edges(const PolygonShape& polygon) {
-    const auto z = static_cast<std::size_t>(polygon.drop_axis), x = (z + 1) % 3, y = (z + 2) % 3;
-    double off = 0;
+/// How far hits may lie outside a polygon's edges along the axes of the inside test. A point counts
+/// as on an edge where the triangle of both has less than kEpsilon / 2 of area, and lies in the
+/// edge's own rectangle: the shorter the edge, the farther off it, but no farther than it is long.
+class ReachOffEdges {
+  public:
+    /// @param length  of an edge, at least [m]
+    [[gnu::always_inline]] void add(double length) {
+        if (length > kFarthest)
+            shortest_ = std::min(shortest_, length);
+        else
+            longest_ = std::max(longest_, length);
+    }
+    /// Over all edges the largest min(kEpsilon / length, length), which rises up to kFarthest and
+    /// falls from there on: two of the edges tell it, with a single division. [m]
+    [[nodiscard]] double largest() const { return std::max(longest_, kEpsilon / shortest_); }
+
+  private:
+    static constexpr double kFarthest = 1e-3;                    ///< root of kEpsilon
+    double longest_ = 0;                                         ///< of those up to kFarthest
+    double shortest_ = std::numeric_limits<double>::infinity();  ///< of the others
+};
+
+/// hit_bounds of a polygon whose inside test ignores axis Z: known while compiling, as this is
+/// called millions of times for a large model.
+template <std::size_t Z>
+Bounds hit_bounds_along(const PolygonShape& polygon) {
+    constexpr std::size_t kX = (Z + 1) % 3, kY = (Z + 2) % 3;
+    const Vec3 normal = polygon.normal;
+    Bounds bounds;
+    double lowest = kHuge, highest = -kHuge;
+    ReachOffEdges off;
     Vec3 from = polygon.vertices.back();
     for (const Vec3 to : polygon.vertices) {
-        const double length_at_least =
-            std::max(std::abs(to[x] - from[x]), std::abs(to[y] - from[y]));
-        if (length_at_least > 0)
-            off = std::max(off, std::min(kEpsilon / length_at_least, length_at_least));
+        include(bounds, to);
+        // Hits lie on the mean plane: drop each vertex onto it along Z.
+        const double dropped = to[Z] + (polygon.offset - dot(normal, to)) / normal[Z];
+        lowest = std::min(lowest, dropped);
+        highest = std::max(highest, dropped);
+        off.add(std::max(std::abs(to[kX] - from[kX]), std::abs(to[kY] - from[kY])));
         from = to;
     }
-    const Vec3& n = polygon.normal;
-    return off * (std::abs(n[x]) + std::abs(n[y])) / std::abs(n[z]);
+    // Off the edges the plane goes on along its slope, up or down.
+    const double reach =
+        off.largest() * (std::abs(normal[kX]) + std::abs(normal[kY])) / std::abs(normal[Z]);
+    bounds.lower[Z] = std::min(bounds.lower[Z], lowest) - reach;
+    bounds.upper[Z] = std::max(bounds.upper[Z], highest) + reach;
+    return grown(bounds, 4 * kEpsilon);
 }
 
 }  // namespace
@@ -89,22 +120,14 @@ Bounds hit_bounds(const Shape& shape) {
 }
 
 Bounds hit_bounds(const PolygonShape& polygon) {
-    // Hits lie on the mean plane: drop each vertex onto it along the axis that the inside test
-    // ignores.
-    const auto axis = static_cast<std::size_t>(polygon.drop_axis);
-    Bounds bounds;
-    double lowest = kHuge, highest = -kHuge;
-    for (const Vec3 vertex : polygon.vertices) {
-        include(bounds, vertex);
-        const double dropped =
-            vertex[axis] + (polygon.offset - dot(polygon.normal, vertex)) / polygon.normal[axis];
-        lowest = std::min(lowest, dropped);
-        highest = std::max(highest, dropped);
+    switch (polygon.drop_axis) {
+        case 0:
+            return hit_bounds_along<0>(polygon);
+        case 1:
+            return hit_bounds_along<1>(polygon);
+        default:
+            return hit_bounds_along<2>(polygon);
     }
-    const double reach = reach_off_edges(polygon);
-    bounds.lower[axis] = std::min(bounds.lower[axis], lowest) - reach;
-    bounds.upper[axis] = std::max(bounds.upper[axis], highest) + reach;
-    return grown(bounds, 4 * kEpsilon);
 }
 
 Bounds grown(Bounds bounds, double margin) {

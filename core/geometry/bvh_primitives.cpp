@@ -269,6 +269,7 @@ class Division {
 
     /// A quick test, safe to call in parallel: false for primitives that are never divided.
     [[nodiscard]] bool is_candidate(std::uint32_t primitive) const {
+        if (model_.half_area_at_most(primitive) <= least_) return false;
         const std::optional<PolygonShape> shape = model_.polygon(primitive);
         return shape && shape->vertices.size() <= kMostVertices &&
                half_area(hit_bounds(*shape)) > least_;

@@ -86,17 +86,23 @@ ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeomet
 
 void ModelPrimitives::find_bounds(const TaskRunner& task_runner) {
     std::vector<Bounds> own(part_count(size_)), hits(own.size());
+    most_half_area_.resize(own.size());
     for_each_part(task_runner, size_, [&](std::size_t part, std::size_t first, std::size_t last) {
-        Bounds all_hits, all_own;  // local, not in the shared array, to avoid false sharing
+        // Local, not in the shared arrays, to avoid false sharing.
+        Bounds all_hits, all_own;
+        double most = 0;
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-            extend(all_hits, hit_bounds(i));
-            if (is_triangle(i)) continue;
             const std::optional<PolygonShape> shape = polygon(i);
+            const Bounds hit = shape ? lightwalk::hit_bounds(*shape) : hit_bounds(i);
+            extend(all_hits, hit);
+            if (is_triangle(i)) continue;
+            if (shape) most = std::max(most, half_area(hit));
             extend(all_own,
                    shape ? bounds_of(*shape) : bounds_of(part_->shapes->shape(*part_->list, i)));
         }
         hits[part] = all_hits;
         own[part] = all_own;
+        most_half_area_[part] = most;
     });
     for (const Bounds& part : own) extend(bounds_, part);
     for (const Bounds& part : hits) extend(all_hit_bounds_, part);
@@ -209,7 +215,7 @@ ModelPrimitives::Smoothing ModelPrimitives::smoothing(std::uint32_t primitive, c
 }
 
 std::size_t ModelPrimitives::memory_bytes() const {
-    std::size_t bytes = 0;
+    std::size_t bytes = most_half_area_.capacity() * sizeof(double);
     for (const auto& [surface, edges] : large_polygons_)
         bytes += sizeof(surface) + edges.memory_bytes();
     return bytes;

@@ -66,6 +66,11 @@ class ModelPrimitives {
         if (is_triangle(primitive) || rows_[primitive].kind != ShapeKind::cone) return nullptr;
         return &part_->shapes->cone(rows_[primitive].index());
     }
+    /// Bound of the half_area of the hit_bounds of a primitive that is a polygon, known without
+    /// looking at the polygon [m²].
+    [[nodiscard]] double half_area_at_most(std::uint32_t primitive) const {
+        return most_half_area_[primitive / kGrain];
+    }
     /// Box around all surfaces and triangles themselves.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     /// Box around what hit_bounds gives for all of them.
@@ -120,6 +125,7 @@ class ModelPrimitives {
     std::unordered_map<std::uint32_t, EdgeIndex> large_polygons_;  ///< by primitive
     std::size_t size_ = 0;
     Bounds bounds_, all_hit_bounds_;
+    std::vector<double> most_half_area_;  ///< of the polygons among each kGrain primitives
 };
 
 }  // namespace lightwalk

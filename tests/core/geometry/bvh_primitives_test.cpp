@@ -108,6 +108,30 @@ TEST_CASE("every point that a polygon takes for its own is in one of its boxes")
     CHECK(most > 8);
 }
 
+TEST_CASE("a wall with a window is divided wherever it stands among thousands of small polygons") {
+    constexpr std::size_t kSmall = 2 * kGrain;
+    for (const std::size_t before : {std::size_t{0}, kGrain - 1, kGrain, kSmall}) {
+        std::vector<test::TestSurface> surfaces;
+        for (std::size_t i = 0; i <= kSmall; ++i) {
+            const double x = 1e-3 * static_cast<double>(i);
+            surfaces.push_back(
+                i == before ? surface(PrimitiveType::polygon,
+                                      {0, 0, 0, 10, 0, 0, 10, 0, 6, 0, 0, 6, 0, 0, 0,
+                                       2, 0, 2, 2,  0, 4, 8,  0, 4, 8, 0, 2, 2, 0, 2},
+                                      0, test::kOpaque)
+                            : surface(PrimitiveType::polygon, {x, 9, 0, x + 1e-3, 9, 0, x, 9, 1e-3},
+                                      0, test::kOpaque));
+        }
+        const Divided all(std::move(surfaces));
+        CHECK_FALSE(all.holds({5, 0, 3}));
+        CHECK(all.holds({5, 0, 1}));
+        CHECK(all.bvh_primitives.size() < kSmall + 16);
+        for (std::uint32_t i = 0; i <= kSmall; ++i)
+            REQUIRE(half_area(all.model->hit_bounds(i)) <= all.model->half_area_at_most(i));
+        CHECK(all.model->half_area_at_most(before < kGrain ? kSmall : 0) < 1e-4);
+    }
+}
+
 TEST_CASE("every point that a small slanted triangle takes for its own is in its box") {
     // The inside test's tolerance is an area: of short edges it reaches far.
     RandomStream random(6);
