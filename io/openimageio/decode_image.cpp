@@ -14,6 +14,22 @@ namespace {
 /// these are few.
 constexpr int kValuesTogether = 1 << 18;
 
+/// A file in memory, at whose offsets a reader may look that stand in the file itself: OpenImageIO
+/// 2.4 takes any, and reads before and behind the bytes.
+class BoundedMemory final : public OIIO::Filesystem::IOMemReader {
+  public:
+    using IOMemReader::IOMemReader;
+    bool seek(int64_t offset) override { return holds(offset) && IOMemReader::seek(offset); }
+    std::size_t pread(void* to, std::size_t size, int64_t offset) override {
+        return holds(offset) ? IOMemReader::pread(to, size, offset) : 0;
+    }
+
+  private:
+    [[nodiscard]] bool holds(int64_t offset) const {
+        return offset >= 0 && static_cast<std::size_t>(offset) <= size();
+    }
+};
+
 /// Whether colours are multiplied by alpha, though that was not wanted: OpenImageIO 2.4 does it to
 /// WebP.
 bool multiplies(std::string_view format, const OIIO::ImageSpec& spec) {
@@ -73,7 +89,7 @@ extern "C" void lightwalk_decode_image(std::string_view bytes, const char* forma
     try {
         OIIO::attribute("threads", 1);  // they would outlive the image
         OIIO::attribute("exr_threads", -1);
-        OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+        BoundedMemory memory(bytes.data(), bytes.size());
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
         if (!input) {
             error = OIIO::geterror();

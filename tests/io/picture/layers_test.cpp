@@ -3,7 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -86,6 +89,27 @@ Picture sum_of(const std::string& path, const std::vector<Rgb>& factors) {
     sum.pixels.resize(static_cast<std::size_t>(header.width * header.height));
     add_layers(bytes, path, factors, sum);
     return sum;
+}
+
+/// Reads a file's layers, one by one.
+void add_all_layers(std::string_view bytes) {
+    const LayersHeader header = read_layers_header(bytes, "part.exr");
+    Picture sum{header.width, header.height, {}};
+    sum.pixels.resize(static_cast<std::size_t>(header.width * header.height));
+    add_layers(bytes, "part.exr", std::vector<Rgb>(header.names.size(), {1, 1, 1}), sum);
+}
+
+/// Where an OpenEXR file says where its rows are: the first of these lie behind the table itself.
+std::size_t offsets_in(const std::string& bytes) {
+    constexpr std::size_t kLongestTable = 1024;  // [bytes]
+    for (std::size_t at = 8; at + sizeof(std::uint64_t) <= bytes.size(); ++at) {
+        std::uint64_t offset = 0;
+        std::memcpy(&offset, &bytes[at], sizeof offset);
+        if (offset > at && offset <= at + kLongestTable && (offset - at) % sizeof offset == 0)
+            return at;
+    }
+    FAIL("no table of rows");
+    return 0;
 }
 
 }  // namespace
@@ -188,15 +212,18 @@ TEST_CASE("damaged files of layers are told by name, wherever they break off") {
     const std::string bytes = read_file(folder.path("all.exr"));
     for (std::size_t size = 4; size < bytes.size(); size += bytes.size() / 40) {
         CAPTURE(size);
-        const auto read = [&] {
-            const std::string_view part = std::string_view(bytes).substr(0, size);
-            const LayersHeader header = read_layers_header(part, "part.exr");
-            Picture sum{header.width, header.height, {}};
-            sum.pixels.resize(static_cast<std::size_t>(header.width * header.height));
-            add_layers(part, "part.exr", std::vector<Rgb>(header.names.size(), {1, 1, 1}), sum);
-        };
-        CHECK_THROWS_WITH_AS(read(), doctest::Contains("part.exr: damaged OpenEXR file"),
-                             InputError);
+        CHECK_THROWS_WITH_AS(add_all_layers(std::string_view(bytes).substr(0, size)),
+                             doctest::Contains("part.exr: damaged OpenEXR file"), InputError);
+    }
+    // Rows that the file says lie before or behind it.
+    std::string elsewhere = bytes;
+    const std::size_t table = offsets_in(elsewhere);
+    for (const std::int64_t offset :
+         {std::int64_t{-1}, std::int64_t{-100'000}, std::int64_t{1} << 40, std::int64_t{1} << 62}) {
+        CAPTURE(offset);
+        std::memcpy(&elsewhere[table], &offset, sizeof offset);
+        CHECK_THROWS_WITH_AS(add_all_layers(elsewhere),
+                             doctest::Contains("part.exr: damaged OpenEXR file"), InputError);
     }
     CHECK_THROWS_WITH_AS((void)read_layers_header("no picture", "a.hdr"),
                          doctest::Contains("a.hdr"), InputError);
