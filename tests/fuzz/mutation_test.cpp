@@ -9,7 +9,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
+#include <string>
 
 #include "tests/fuzz/targets.h"
 
@@ -125,7 +129,32 @@ void endure(const NamedTarget& target, std::string (*injure)(std::string, std::m
 #endif
 }
 
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 }  // namespace
+
+// Called by read_corpus.py, with the folder.
+TEST_CASE("the kept corpus of the fuzzer is read or refused") {
+    const char* const folder = std::getenv("LIGHTWALK_FUZZ_CORPUS");
+    if (folder == nullptr) return;
+    for (const NamedTarget& target : kFuzzTargets) {
+        CAPTURE(target.name);
+        int files = 0;
+        for (const auto& file :
+             std::filesystem::directory_iterator(std::filesystem::path(folder) / target.name)) {
+            CAPTURE(file.path().string());
+            const std::string bytes = bytes_of(file);
+            alarm(4 * kHangSeconds);
+            CHECK_NOTHROW((void)target.run(bytes));
+            ++files;
+        }
+        CHECK(files > 0);
+    }
+    alarm(0);
+}
 
 TEST_CASE("mutated scene files are read or refused") {
     endure(kFuzzTargets[0]);
