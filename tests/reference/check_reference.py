@@ -8,7 +8,7 @@ reports (inputs after public bug reports), distances, pixels, rays (single rays
 through real models), picture NAME, defaults NAME (the mean with default options),
 ambient_error (of indirect light against a converged picture), adaptive (means and rays of -ps 2 and 4). Exit 0: holds, 1: does not, 77: the data are not here (skipped).
 """
-import csv, gzip, json, os, pathlib, subprocess, sys, tempfile
+import csv, gzip, json, os, pathlib, statistics, subprocess, sys, tempfile
 
 import numpy as np
 
@@ -238,24 +238,28 @@ def compared(data, reference, rendered):
 
 def ambient_error(program, data):
     """With the settings of Radiance's picture of kind medium: against the picture that converged without a cache, ours is
-    not farther off than Radiance's, whatever the number of threads; pictures of 1, 2 and 8 threads differ by less than a
-    third of that; and the cache takes at most 160 bytes a value, everything counted. summer-living-converged.hdr is ours, of 4096 samples a pixel: -aa 0 -ad 4096, else the same options."""
+    not farther off than Radiance's, whatever the number of threads (of several threads the median of several pictures: which values
+    stand in the cache is up to who is first); pictures of 1, 2 and 8 threads differ by less than a third of that; and the cache takes at most 160 bytes a value, everything counted. summer-living-converged.hdr is ours, of 4096 samples a pixel: -aa 0 -ad 4096, else the same options."""
     row = next(r for r in table(data / "reference" / "pictures" / "index.tsv") if r["kind"] == "medium")
     converged = pathlib.Path(__file__).resolve().parent / "summer-living-converged.hdr"
     theirs = compared(data, converged, data / "reference" / row["picture"])
     print(f"Radiance's: block_p95 {theirs[0]:.4f} rel_rmse {theirs[1]:.4f}")
     ok, errors, pictures = True, [], []
     with tempfile.TemporaryDirectory() as temp:
-        for threads in ("1", "2", "8"):
-            pictures.append(os.path.join(temp, threads + ".hdr"))
+        for threads, count in (("1", 1), ("2", 5), ("8", 9)):
             stats = os.path.join(temp, "stats.json")
-            render(program, data, row, [*row["options"].split(), "-n", threads, "--stats", stats], pictures[-1])
-            errors.append(compared(data, converged, pictures[-1]))
-            ambient = json.loads(pathlib.Path(stats).read_text())["ambient"]
-            size = ambient["cache_bytes"] / ambient["cached"]
-            print(f"{threads} threads: block_p95 {errors[-1][0]:.4f} rel_rmse {errors[-1][1]:.4f}; "
-                  f"{ambient['cached']} values of {size:.1f} bytes")
-            ok = ok and size <= 160 and errors[-1][0] <= theirs[0] and errors[-1][1] <= theirs[1]
+            drawn = []
+            for number in range(count):
+                picture = os.path.join(temp, f"{threads}-{number}.hdr")
+                render(program, data, row, [*row["options"].split(), "-n", threads, "--stats", stats], picture)
+                drawn.append((*compared(data, converged, picture), picture))
+                ambient = json.loads(pathlib.Path(stats).read_text())["ambient"]
+                size = ambient["cache_bytes"] / ambient["cached"]
+                ok = ok and size <= 160
+                print(f"{threads} threads: block_p95 {drawn[-1][0]:.4f} rel_rmse {drawn[-1][1]:.4f}; {ambient['cached']} values of {size:.1f} bytes")
+            errors.append(tuple(statistics.median(figures) for figures in zip(*(one[:2] for one in drawn))))
+            pictures.append(sorted(drawn)[len(drawn) // 2][2])  # whose block_p95 is the median
+            ok = ok and errors[-1][0] <= theirs[0] and errors[-1][1] <= theirs[1]
         for a, b in ((0, 1), (0, 2), (1, 2)):
             between = compared(data, pictures[a], pictures[b])
             print(f"between them: block_p95 {between[0]:.4f} rel_rmse {between[1]:.4f}")
