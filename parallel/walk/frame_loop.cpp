@@ -72,13 +72,14 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera, Executor& e
     frames.view = camera.view();
     frames.width = order.width;
     frames.height = order.height;
-    if (!same || order.rules.empty) {
+    // A view that rests goes on with what is known of its pixels, also where they left no points.
+    const bool anew = order.rules.empty && !order.rests;
+    if (!same || anew) {
         // Points are places in the scene: in a picture of another size they answer other pixels.
         std::optional<CloudRegion> before = std::exchange(frames.region, std::nullopt);
         const SubImages parts({0, 0, order.width, order.height}, owners_);
         frames.region.emplace(parts[index_], order.width, order.height, options_, clock_);
-        if (before && !order.rules.empty)
-            frames.region->points().adopt(std::move(before->points()));
+        if (before && !anew) frames.region->points().adopt(std::move(before->points()));
     }
     frames.region->points().mix(order.mixture, ExecutorTaskRunner(executor));
     frames.region->begin(camera, order.rules);
