@@ -29,7 +29,7 @@ PicturePlan some_picture_plan(Chance& chance, bool with_faults) {
     plan.broadcasts = chance.percent(30);
     if (with_faults)
         for (int left = one_of(chance, {0, 1, 1, 1, 2}); left > 0; --left)
-            plan.faults.push_back(some_fault(chance, plan));
+            plan.faults.push_back(some_fault(chance, plan, 200));
     return plan;
 }
 

@@ -29,7 +29,8 @@ T one_of(Chance& chance, std::initializer_list<T> list) {
     return *(list.begin() + chance.below(static_cast<int>(list.size())));
 }
 
-inline Fault some_fault(Chance& chance, const RankPlan& plan) {
+/// @param messages  of a short run
+inline Fault some_fault(Chance& chance, const RankPlan& plan, int messages) {
     using Kind = Fault::Kind;
     Fault fault;
     fault.kind =
@@ -38,7 +39,7 @@ inline Fault some_fault(Chance& chance, const RankPlan& plan) {
     fault.rank = chance.below(plan.ranks);
     // Where much happens, or where nothing does.
     if (chance.percent(70))
-        fault.message = 1 + static_cast<std::uint64_t>(chance.below(200));
+        fault.message = 1 + static_cast<std::uint64_t>(chance.below(messages));
     else
         fault.time = chance.up_to(20 * (plan.longest_delay + plan.longest_work));
     if (fault.passes())
@@ -73,6 +74,7 @@ struct Tally {
     Story story;
     std::uint64_t lost = 0;
     std::uint64_t wrong = 0;
+    std::string others;  ///< some of the wrong ones, and what is wrong
 };
 
 /// @tparam Player  plays the story of a seed; each thread has its own
@@ -88,7 +90,9 @@ Tally play_all(std::uint64_t count) {
             const std::lock_guard lock(mutex);
             tally.lost += story.lost ? 1 : 0;
             if (story.wrong.empty()) continue;
-            ++tally.wrong;
+            constexpr std::uint64_t kMostTold = 12;
+            if (++tally.wrong <= kMostTold)
+                tally.others += "  " + std::to_string(seed) + ": " + story.wrong + "\n";
             if (tally.seed && *tally.seed < seed) continue;
             tally.seed = seed;
             tally.story = story;
@@ -120,7 +124,7 @@ void check_stories(std::uint64_t count) {
     if (tally.seed) {
         FAIL_CHECK(tally.wrong << " of " << seeds << " seeds; LIGHTWALK_SEED=" << *tally.seed
                                << ":\n"
-                               << tally.story.told);
+                               << tally.story.told << tally.others);
     }
     // Both ways to end are tried.
     CHECK(tally.lost > seeds / 10);

@@ -34,13 +34,11 @@ RoomHit hit_of(const Vec3& origin, const Vec3& direction) {
     return hit;
 }
 
-/// 0 ... 1, smooth, with an edge now and then.
+/// 0 ... 1, in stripes.
 float pattern_at(const Vec3& place) {
     const double wave = 0.5 + 0.25 * std::sin(3 * place.x + place.y) + 0.2 * std::sin(place.z);
-    return static_cast<float>(std::floor(place.x + place.y + place.z) * 0.5 ==
-                                      std::floor((place.x + place.y + place.z) * 0.5)
-                                  ? wave
-                                  : 0.8 * wave);
+    const bool dark = std::fmod(std::floor(place.x + place.y + place.z), 2) != 0;
+    return static_cast<float>(dark ? 0.8 * wave : wave);
 }
 
 /// What each group brings.

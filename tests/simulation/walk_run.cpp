@@ -213,10 +213,19 @@ void WalkRun::check(const WalkStep& step, const WalkFrame& shown) {
 /// Without a budget one process draws the same.
 void WalkRun::check_with_one(const WalkStep& step, const WalkFrame& shown) {
     RoomCaster caster(step.room, picture_of(step, FrameUse::picture), 1);
-    const CloudFrame& drawn = alone_->draw(caster.camera(), caster, *serial_, stop_of(0));
+    const StopFlag never;
+    const CloudFrame& drawn = alone_->draw(caster.camera(), caster, *serial_, never);
     const Frame frame = turned_over(drawn, *serial_);
-    if (frame.radiance != shown.frame.radiance || frame.distance != shown.frame.distance)
-        complain("a frame is another one than that of one process");
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < frame.radiance.size(); ++i)
+        others += frame.radiance[i] != shown.frame.radiance[i] ||
+                          frame.distance[i] != shown.frame.distance[i]
+                      ? 1
+                      : 0;
+    if (others > 0)
+        complain("a frame is another one than that of one process: step " +
+                 std::to_string(progress_.at) + ", " + std::to_string(others) + " pixels of " +
+                 std::to_string(step.width) + " x " + std::to_string(step.height));
     if (drawn.report.reused != shown.report.reused ||
         drawn.report.uncached != shown.report.uncached)
         complain("a frame takes something else than that of one process");

@@ -53,10 +53,8 @@ WalkStep next_step(Chance& chance, WalkStep step) {
                 chance, {{}, {{{1, .5F, .25F}, {.5F, 1, 1}}}, {{{.25F, .25F, .25F}, {1, 1, 1}}}});
             break;
         case 5:
-            if (chance.percent(50))
-                ++step.room.light;
-            else
-                ++step.room.screen, step.keeps_some = true;
+            step.keeps_some = chance.percent(50);
+            ++(step.keeps_some ? step.room.screen : step.room.light);
             break;
         default:
             break;  // it rests
@@ -95,17 +93,19 @@ WalkPlan some_walk_plan(Chance& chance, bool with_faults) {
     plan.slots = plan.variant == Variant::hybrid ? one_of(chance, {1, 2}) : 1;
     plan.ahead = one_of(chance, {0, 1});
     plan.projectors = one_of(chance, {32, 32, 2, 1});
-    plan.longest_delay = one_of<Time>(chance, {milliseconds(1), milliseconds(1), milliseconds(200),
-                                               milliseconds(200), seconds(3), seconds(10)});
-    plan.longest_work =
-        one_of<Time>(chance, {milliseconds(1), milliseconds(20), milliseconds(300), seconds(4)});
+    // Long ones are dear: signs of life come and go meanwhile.
+    plan.longest_delay =
+        one_of<Time>(chance, {milliseconds(1), milliseconds(1), milliseconds(1), milliseconds(200),
+                              milliseconds(200), milliseconds(200), seconds(3), seconds(10)});
+    plan.longest_work = one_of<Time>(chance, {milliseconds(1), milliseconds(20), milliseconds(20),
+                                              milliseconds(300), milliseconds(300), seconds(4)});
     plan.broadcasts = chance.percent(20);
     plan.apart = chance.percent(30);
     plan.groups = chance.percent(40);
     plan.cloud = some_cloud(chance);
     if (with_faults)
         for (int left = one_of(chance, {0, 1, 1, 1, 2}); left > 0; --left)
-            plan.faults.push_back(some_fault(chance, plan));
+            plan.faults.push_back(some_fault(chance, plan, 400));
     return plan;
 }
 
@@ -138,15 +138,10 @@ class WalkPlayer {
 };
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t kWalks = 300;
+constexpr std::uint64_t kWalks = 250;
 #else
-constexpr std::uint64_t kWalks = 10000;
+constexpr std::uint64_t kWalks = 4000;
 #endif
-
-template <class Kind, class Result>
-bool is_result(const Result& result) {
-    return std::holds_alternative<Kind>(result);
-}
 
 /// An owner of a part begins anew in the third frame, as if it had seen none.
 int forget_points(Packet& packet, int& seen) {
