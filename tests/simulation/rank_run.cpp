@@ -8,7 +8,7 @@ namespace lightwalk::simulation {
 namespace {
 
 /// A run without faults takes less, whatever its delays.
-constexpr Time kLongest = seconds(4000);
+constexpr Time kLongest = seconds(20000);
 
 const char* name_of(Fault::Kind kind) {
     constexpr const char* kNames[] = {"stop", "unplug", "kill", "cut", "fail", "interrupt"};
@@ -129,7 +129,10 @@ void RankRun::program(RankLink& link) {
     if (plan_.broadcasts && link.broadcast(link.leads() ? "known" : "") != "known")
         complain("a broadcast brings something else");
     const auto trace_or_wait = [&] {
-        link.traces() ? trace(link) : link.inbox().wait_for_end(stop_of(link.rank()));
+        if (link.traces())
+            trace(link);
+        else
+            link.inbox().wait_for_end(stop_of(link.rank()));
     };
     if (link.leads()) {
         const auto tracing = [&] {

@@ -174,6 +174,14 @@ Mishap once(int copies, int nth, Wanted wanted) {
     };
 }
 
+/// A mishap of all such messages.
+template <class Wanted>
+Mishap always(int copies, Wanted wanted) {
+    return [copies, wanted](const Packet& packet) {
+        return wanted(packet, decode_message(packet.bytes)) ? copies : 1;
+    };
+}
+
 /// Signs of life are lost.
 inline int lose_alive(const Packet& packet) {
     return is_alive(decode_message(packet.bytes)) ? 0 : 1;

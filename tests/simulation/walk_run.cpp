@@ -184,7 +184,7 @@ bool WalkRun::settle(const WalkStep& step) {
 /// Whether a frame can be one of this view and scene.
 void WalkRun::check(const WalkStep& step, const WalkFrame& shown) {
     constexpr float kFarthest = 13;
-    const auto pixels = static_cast<std::size_t>(step.width * step.height);
+    const std::size_t pixels = PixelRectangle{0, 0, step.width, step.height}.pixels();
     const Frame& frame = shown.frame;
     if (frame.width != step.width || frame.height != step.height ||
         frame.radiance.size() != pixels || frame.distance.size() != pixels)
@@ -308,12 +308,11 @@ std::unique_ptr<FrameCaster> WalkRun::make_rays(int rank, const FrameOrder& orde
 }
 
 void WalkRun::note_traced(const FrameOrder& order, std::span<const PixelPlace> places, int sample) {
-    const auto pixels = static_cast<std::size_t>(order.width * order.height);
+    const PixelRectangle whole{0, 0, order.width, order.height};
     std::vector<std::uint8_t>& traced = traced_[order.number];
-    traced.resize(2 * pixels);  // noise pairs are traced by another sample
+    traced.resize(2 * whole.pixels());  // noise pairs are traced by another sample
     for (const PixelPlace& place : places) {
-        const std::size_t at = static_cast<std::size_t>(place.y * order.width + place.x) +
-                               (sample == order.sample ? 0 : pixels);
+        const std::size_t at = whole.index(place) + (sample == order.sample ? 0 : whole.pixels());
         if (++traced[at] > 1) complain("a pixel is traced twice");
     }
     if (order.number < ordered_) complain("a frame is traced that is over");
