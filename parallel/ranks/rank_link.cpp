@@ -301,11 +301,8 @@ std::deque<ProgramNews> RankLink::take_news(bool wait, const StopFlag& stop) {
 
 /// The way that announcements take, so that it overtakes none: sub-queues tell their workers.
 void RankLink::dismiss() {
-    for (int to = 0; to < ranks(); ++to) {
-        const auto worker = topology_.worker_index(to);
-        const int queue = worker ? topology_.workers[*worker].queue : 0;
-        if (queue == 0 || queue == to) post(to, Notice{Finish{}});
-    }
+    for (int to = 0; to < ranks(); ++to)
+        if (!topology_.below_sub_queue(to)) post(to, Notice{Finish{}});
 }
 
 RankReport RankLink::report() const {
