@@ -12,6 +12,7 @@
 #include "parallel/ranks/assembly.h"
 #include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/ranks/rank_link.h"
+#include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
 

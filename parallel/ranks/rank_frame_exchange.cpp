@@ -16,7 +16,7 @@ namespace {
 /// One frame, as long as it is drawn.
 class RankFrameExchange final : public FrameExchange {
   public:
-    RankFrameExchange(RankLink& link, const FrameOrder& order, const SceneCaster& rays,
+    RankFrameExchange(RankLink& link, const FrameOrder& order, const FrameCaster& rays,
                       std::size_t index, double last_keep_seconds)
         : link_(link),
           inbox_(link.inbox()),
@@ -190,7 +190,7 @@ class RankFrameExchange final : public FrameExchange {
     RankLink& link_;
     TracerInbox& inbox_;
     const FrameOrder& order_;
-    const SceneCaster& rays_;
+    const FrameCaster& rays_;
     std::size_t index_;  ///< of this rank among the workers, the first of which are the owners
     std::uint64_t rays_before_;
     double last_keep_seconds_;
@@ -204,26 +204,28 @@ class RankFrameLoop {
         : link_(link),
           cloud_(cloud),
           scene_(scene),
+          clock_([&link] { return link.threads().now(); }),
           index_(link.topology().worker_index(link.rank()).value_or(0)) {
-        frames_.emplace(cloud_, index_, link_.owners().size());
+        frames_.emplace(cloud_, index_, link_.owners().size(), clock_);
     }
 
     void draw(const FrameOrder& order, Executor& executor, const StopFlag& stop) {
         const std::size_t levels = order.mixture.levels.size();
         if (levels != 0 && levels != cloud_.light_groups)
             throw InputError("a frame of a walk is ordered with levels of other light groups");
-        const std::unique_ptr<SceneCaster> rays = scene_.make_rays(order);
+        const std::unique_ptr<FrameCaster> rays = scene_.make_rays(order);
         RankFrameExchange exchange(link_, order, *rays, index_, frames_->keep_seconds());
         if (owns()) {
             (void)frames_->draw(order, rays->camera(), *rays, exchange, executor, stop);
             return;
         }
         // A rank that owns no part has nothing to do before others have found what to trace.
-        const auto deadline = order.budget > 0 ? deadline_of(order.budget)
+        const auto deadline = order.budget > 0 ? clock_.in(order.budget)
                                                : UncachedPixelTracer::Clock::time_point::max();
-        exchange.trace_runs(UncachedPixelTracer(*rays, cloud_.tolerance,
-                                                tracing_deadline(deadline, order.budget, 0)),
-                            order.sample, executor, stop);
+        exchange.trace_runs(
+            UncachedPixelTracer(*rays, cloud_.tolerance,
+                                tracing_deadline(clock_, deadline, order.budget, 0), clock_),
+            order.sample, executor, stop);
     }
 
     void follow(const ChangeOrder& change) {
@@ -235,7 +237,7 @@ class RankFrameLoop {
             case ChangeOrder::Step::take:
                 cloud_.light_groups = scene_.take(change.number);
                 if (change.shown.empty())  // of which nothing is kept
-                    frames_.emplace(cloud_, index_, link_.owners().size());
+                    frames_.emplace(cloud_, index_, link_.owners().size(), clock_);
                 else
                     frames_->drop(ShownMaterials(change.shown));
                 return;
@@ -266,6 +268,7 @@ class RankFrameLoop {
     RankLink& link_;
     CloudOptions cloud_;
     const WalkScene& scene_;
+    FrameClock clock_;
     std::size_t index_;  ///< of this rank among the workers, the first of which are the owners
     std::optional<FrameLoop> frames_;
 };

@@ -7,15 +7,15 @@
 
 #include "parallel/ranks/rank_link.h"
 #include "parallel/sub_images.h"
+#include "parallel/walk/frame_caster.h"
 #include "parallel/walk/frame_loop.h"
-#include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
 
 /// What a rank draws frames of.
 struct WalkScene {
     /// Makes the rays of an order. Called once a frame on every rank that traces.
-    std::function<std::unique_ptr<SceneCaster>(const FrameOrder& order)> make_rays;
+    std::function<std::unique_ptr<FrameCaster>(const FrameOrder& order)> make_rays;
 
     // Of scenes that change:
 

@@ -299,8 +299,10 @@ std::deque<ProgramNews> RankLink::take_news(bool wait, const StopFlag& stop) {
     return std::exchange(news_, {});
 }
 
+/// The way that announcements take, so that it overtakes none: sub-queues tell their workers.
 void RankLink::dismiss() {
-    for (int to = 0; to < ranks(); ++to) post(to, Notice{Finish{}});
+    for (int to = 0; to < ranks(); ++to)
+        if (!topology_.below_sub_queue(to)) post(to, Notice{Finish{}});
 }
 
 RankReport RankLink::report() const {

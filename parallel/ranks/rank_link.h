@@ -140,6 +140,8 @@ class RankLink {
     /// On rank 0, since agree(): how long it takes at least until all have answered [s]; 0 on one
     /// machine.
     [[nodiscard]] double round_trip() const { return round_trip_; }
+    /// Its clock, and how its threads wait.
+    [[nodiscard]] RankThreads& threads() { return *threads_; }
     [[nodiscard]] Timeline& timeline() { return timeline_; }
     /// What this rank did, but for what only its tracers know. Times are told since agree(), which
     /// returns at about the same moment on all ranks.

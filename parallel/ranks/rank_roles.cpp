@@ -80,6 +80,8 @@ void RankRoles::handle(int from, Message message, Outbox& out) {
                    },
                    [&](Collective& m) { collectives_.handle(from, std::move(m), out); },
                    [&](Notice& m) {
+                       if (for_sub_queue && std::holds_alternative<Finish>(m.notice))
+                           sub_queue_->finish(out);
                        out.program.emplace_back(RankNotice{from, std::move(m)});
                    }},
         message);

@@ -32,6 +32,11 @@ std::vector<int> Topology::worker_ranks() const {
     return found;
 }
 
+bool Topology::below_sub_queue(int rank) const {
+    const std::optional<std::size_t> worker = worker_index(rank);
+    return worker && workers[*worker].queue != 0 && workers[*worker].queue != rank;
+}
+
 Topology make_topology(Variant variant, int ranks, bool ambient, int masters) {
     const int below = chosen_masters(masters, ranks) - 1;  // masters below rank 0
     Topology topology;

@@ -33,6 +33,8 @@ struct Topology {
     [[nodiscard]] bool traces(int rank) const { return worker_index(rank).has_value(); }
     [[nodiscard]] std::optional<std::size_t> worker_index(int rank) const;
     [[nodiscard]] std::vector<int> worker_ranks() const;
+    /// Whether it hears of work from another rank's sub-queue, rather than from rank 0.
+    [[nodiscard]] bool below_sub_queue(int rank) const;
 };
 
 /// @param ranks    at least 1 for `hybrid`; for `ranks` at least one worker beside master, ambient

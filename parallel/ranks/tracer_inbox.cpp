@@ -139,6 +139,11 @@ std::optional<FrameMail> TracerInbox::mail(FrameNumber frame, std::size_t pixels
     });
 }
 
+std::size_t TracerInbox::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return items_.size() + runs_.size() + orders_.size() + mail_.size();
+}
+
 void TracerInbox::wait_for_end(const StopFlag& stop) {
     (void)wait_for(stop, [] { return std::optional<bool>(); });
 }

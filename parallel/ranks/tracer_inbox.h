@@ -70,6 +70,9 @@ class TracerInbox {
     /// Until the inbox is closed.
     void wait_for_end(const StopFlag& stop);
 
+    /// Pieces of work, orders, and frames' mail that nobody has taken.
+    [[nodiscard]] std::size_t waiting() const;
+
   private:
     void push_picture(PictureJob job);
     void push_grant(WorkGrant grant);
@@ -78,7 +81,7 @@ class TracerInbox {
     auto wait_for(const StopFlag& stop, Take take) -> decltype(take());
 
     std::shared_ptr<RankThreads> threads_;
-    std::mutex mutex_;  ///< guards what follows
+    mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::deque<Item> items_;
     std::map<JobId, std::shared_ptr<OpenPicture>> pictures_;  ///< the newest kJobsAtOnce

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/cloud/answer_block.h"
 #include "core/cloud/surface_fill.h"
@@ -19,8 +20,9 @@ constexpr int kAwake = 8;       ///< frames for which points out of the picture 
 }  // namespace
 
 CloudRegion::CloudRegion(const PixelRectangle& area, int width, int height,
-                         const CloudOptions& options)
+                         const CloudOptions& options, FrameClock clock)
     : options_(options),
+      clock_(std::move(clock)),
       points_(area, width, height),
       blocks_(make_blocks(area, kBlockSide)),
       uncached_of_(blocks_.size()),
@@ -48,12 +50,12 @@ void CloudRegion::begin(const Camera& camera, const CloudRules& rules) {
 }
 
 void CloudRegion::project(Executor& executor) {
-    const StepTimer timer(frame_.report.project_seconds);
+    const StepTimer timer(frame_.report.project_seconds, clock_);
     points_.project(ExecutorTaskRunner(executor));
 }
 
 void CloudRegion::add(std::span<const CloudPoint> points, std::span<const Rgb> groups) {
-    const StepTimer timer(frame_.report.project_seconds);
+    const StepTimer timer(frame_.report.project_seconds, clock_);
     if (groups.size() != points.size() * options_.light_groups)
         throw InputError("points of a walk come with other light groups than are kept");
     points_.add(points, groups);
@@ -61,8 +63,8 @@ void CloudRegion::add(std::span<const CloudPoint> points, std::span<const Rgb> g
 
 void CloudRegion::answer(PixelCaster& caster, Executor& executor, const StopFlag& stop,
                          Clock::time_point check_until) {
-    const StepTimer timer(frame_.report.check_seconds);
-    const auto is_late = [&] { return Clock::now() > check_until; };
+    const StepTimer timer(frame_.report.check_seconds, clock_);
+    const auto is_late = [&] { return clock_.now() > check_until; };
     const RegionAnswers answers{options_, rules_, caster, is_late, to_trace_.finest_grid(),
                                 points_,  frame_};
     // Where time is short it is that of the last ones: others in each frame.
@@ -82,13 +84,13 @@ void CloudRegion::infer(PixelCaster& caster, Executor& executor, const StopFlag&
                         Clock::time_point until) {
     CloudReport& report = frame_.report;
     if (frame_.surfaces.empty() || report.filled == report.inferred) return;
-    const StepTimer timer(report.infer_seconds);
+    const StepTimer timer(report.infer_seconds, clock_);
     std::vector<std::vector<InferredPixel>> inferred(blocks_.size());
     const std::size_t first = rules_.frame * (blocks_.size() / 3 + 1);
     executor.for_each(
         blocks_.size(),
         [&](std::size_t task, int worker) {
-            if (Clock::now() > until) return;
+            if (clock_.now() > until) return;
             const std::size_t block = (first + task) % blocks_.size();
             infer_block(frame_, blocks_[block], caster, worker, inferred[block]);
         },
@@ -102,7 +104,7 @@ void CloudRegion::refine(std::span<const PixelPlace> places) {
 }
 
 AgeCounts CloudRegion::age(Executor& executor) {
-    const StepTimer timer(frame_.report.keep_seconds);
+    const StepTimer timer(frame_.report.keep_seconds, clock_);
     to_trace_.leave_points(points_);
     const int age = static_cast<int>(std::ceil(options_.age * rules_.tightness));
     // Where the eye looks back, what it has seen before is there again. Without a budget frames are
@@ -117,7 +119,7 @@ AgeCounts CloudRegion::rest(bool leave) {
 }
 
 void CloudRegion::keep(const AgeLimit& room, Executor& executor) {
-    const StepTimer timer(frame_.report.keep_seconds);
+    const StepTimer timer(frame_.report.keep_seconds, clock_);
     points_.keep(room, rules_.frame, ExecutorTaskRunner(executor));
     frame_.report.points = points_.all().size();
 }

@@ -12,6 +12,7 @@
 #include "core/cloud/trace_list.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
+#include "parallel/walk/frame_clock.h"
 
 namespace lightwalk {
 
@@ -23,7 +24,8 @@ namespace lightwalk {
 class CloudRegion {
   public:
     /// @param area  of a picture of width x height pixels
-    CloudRegion(const PixelRectangle& area, int width, int height, const CloudOptions& options);
+    CloudRegion(const PixelRectangle& area, int width, int height, const CloudOptions& options,
+                FrameClock clock = {});
 
     /// A new frame. The camera must outlive it.
     void begin(const Camera& camera, const CloudRules& rules);
@@ -69,6 +71,7 @@ class CloudRegion {
 
   private:
     CloudOptions options_;
+    FrameClock clock_;
     CloudRules rules_;  ///< of this frame
     RegionPoints points_;
     CloudFrame frame_;

@@ -80,7 +80,7 @@ bool DraftLight::aim(const View& view, const FrameOptions& options) {
 }
 
 void DraftLight::step(double seconds, Executor& executor, const StopFlag& stop) {
-    const Clock::time_point deadline = deadline_of(seconds);
+    const Clock::time_point deadline = FrameClock().in(seconds);
     contexts_.reset_counters();
     direct_contexts_.reset_counters();
     while (stage_ != Stage::whole && !stop.requested()) {

@@ -22,7 +22,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     using Clock = UncachedPixelTracer::Clock;
     Frames& frames = of(order);
     const Clock::time_point deadline =
-        order.budget > 0 ? deadline_of(order.budget - frames.infer_seconds - frames.keep_seconds)
+        order.budget > 0 ? clock_.in(order.budget - frames.infer_seconds - frames.keep_seconds)
                          : Clock::time_point::max();
     begin(order, camera, executor);
     CloudRegion& region = *frames.region;
@@ -32,20 +32,22 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     } else {
         region.project(executor);
         if (!exchange.exchange_points(region, stop)) return false;
-        region.answer(caster, executor, stop, checking_deadline(order.budget, frames.unknown));
+        region.answer(caster, executor, stop,
+                      checking_deadline(clock_, order.budget, frames.unknown));
         frames.unknown = region.unknown();
         if (stop.requested()) return false;
         exchange.send_used(region);
     }
     {
-        const StepTimer timer(report.trace_seconds);
+        const StepTimer timer(report.trace_seconds, clock_);
         const UncachedPixelTracer tracer(
-            caster, options_.tolerance, tracing_deadline(deadline, order.budget, region.unknown()));
+            caster, options_.tolerance,
+            tracing_deadline(clock_, deadline, order.budget, region.unknown()), clock_);
         if (!exchange.trace(region, tracer, order.sample, executor, stop)) return false;
     }
     if (!order.rests) {
         region.show(order.budget > 0);
-        region.infer(caster, executor, stop, inferring_deadline(order.budget));
+        region.infer(caster, executor, stop, inferring_deadline(clock_, order.budget));
     }
     const AgeCounts ages = order.rests ? region.rest(order.leaves) : region.age(executor);
     report.points = std::accumulate(ages.begin(), ages.end(), std::size_t{0});
@@ -70,13 +72,14 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera, Executor& e
     frames.view = camera.view();
     frames.width = order.width;
     frames.height = order.height;
-    if (!same || order.rules.empty) {
+    // A view that rests goes on with what is known of its pixels, also where they left no points.
+    const bool anew = order.rules.empty && !order.rests;
+    if (!same || anew) {
         // Points are places in the scene: in a picture of another size they answer other pixels.
         std::optional<CloudRegion> before = std::exchange(frames.region, std::nullopt);
         const SubImages parts({0, 0, order.width, order.height}, owners_);
-        frames.region.emplace(parts[index_], order.width, order.height, options_);
-        if (before && !order.rules.empty)
-            frames.region->points().adopt(std::move(before->points()));
+        frames.region.emplace(parts[index_], order.width, order.height, options_, clock_);
+        if (before && !anew) frames.region->points().adopt(std::move(before->points()));
     }
     frames.region->points().mix(order.mixture, ExecutorTaskRunner(executor));
     frames.region->begin(camera, order.rules);
@@ -89,8 +92,8 @@ void FrameLoop::put_aside_to_sleep() {
 }
 
 /// The view stands still: the order says what is to be traced.
-void FrameLoop::refine(CloudRegion& region, std::span<const PixelPlace> places) {
-    const StepTimer timer(region.frame().report.check_seconds);
+void FrameLoop::refine(CloudRegion& region, std::span<const PixelPlace> places) const {
+    const StepTimer timer(region.frame().report.check_seconds, clock_);
     std::vector<PixelPlace> own;
     for (const PixelPlace& place : places)
         if (region.frame().area.contains(place)) own.push_back(place);

@@ -3,12 +3,14 @@
 // many.
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/cloud/primary_visibility.h"
 #include "core/view/view.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_region.h"
+#include "parallel/walk/frame_clock.h"
 #include "parallel/walk/frame_order.h"
 #include "parallel/walk/uncached_pixel_tracer.h"
 
@@ -58,8 +60,9 @@ class NoFrameExchange final : public FrameExchange {
 class FrameLoop {
   public:
     /// @param index, owners  which part of a frame this one owns, of how many
-    explicit FrameLoop(const CloudOptions& options, std::size_t index = 0, std::size_t owners = 1)
-        : options_(options), index_(index), owners_(owners) {}
+    explicit FrameLoop(const CloudOptions& options, std::size_t index = 0, std::size_t owners = 1,
+                       FrameClock clock = {})
+        : options_(options), index_(index), owners_(owners), clock_(std::move(clock)) {}
 
     /// The next frame. False: stopped; then, and when the caster throws, the cloud is as it was
     /// before. Throws InputError for orders that cannot be.
@@ -99,10 +102,11 @@ class FrameLoop {
     [[nodiscard]] Frames& of(const FrameOrder& order) { return order.aside ? aside_ : shown_; }
     void begin(const FrameOrder& order, const Camera& camera, Executor& executor);
     void put_aside_to_sleep();
-    static void refine(CloudRegion& region, std::span<const PixelPlace> places);
+    void refine(CloudRegion& region, std::span<const PixelPlace> places) const;
 
     CloudOptions options_;
     std::size_t index_, owners_;
+    FrameClock clock_;
     Frames shown_;
     Frames aside_;  ///< of one view; its points sleep among the others' as soon as it is left
 };

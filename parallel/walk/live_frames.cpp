@@ -21,7 +21,7 @@ TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts, const 
                           const FrameOptions& options, const ProgressiveWork& work, double seconds,
                           Executor& executor, const StopFlag& stop, const LightMixture& mixture) {
     const PixelRays rays = rays_of_sample(camera, options, work.sample);
-    const UncachedPixelTracer::Clock::time_point deadline = deadline_of(seconds);
+    const UncachedPixelTracer::Clock::time_point deadline = FrameClock().in(seconds);
     TracedValues traced(std::vector<std::optional<PixelValue>>(work.places.size()));
     const std::size_t groups = contexts.light_groups() ? contexts.light_groups()->size() : 0;
     traced.groups.resize(work.places.size() * groups);

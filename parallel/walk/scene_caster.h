@@ -3,13 +3,13 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/primary_visibility.h"
 #include "core/cloud/sparse_hits.h"
 #include "core/cloud/visibility_probe.h"
 #include "core/view/pixel_rays.h"
 #include "parallel/frame_options.h"
 #include "parallel/pixel_tracer.h"
 #include "parallel/stop_flag.h"
+#include "parallel/walk/frame_caster.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
@@ -37,7 +37,7 @@ enum class FrameUse {
 
 /// The camera of one frame, and its rays: those that a picture with the same options has, to the
 /// bit, or for a frame that is seen for a moment those through the middles of pixels.
-class SceneCaster final : public PixelCaster {
+class SceneCaster final : public FrameCaster {
   public:
     /// All but the camera must outlive this.
     /// @param mixture  of the contexts' light groups, where they have some
@@ -53,9 +53,8 @@ class SceneCaster final : public PixelCaster {
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker) override;
     [[nodiscard]] PixelGroups groups(int worker) const override;
-    [[nodiscard]] const Camera& camera() const { return camera_; }
-    /// Rays that its contexts have traced so far, for this frame and those before.
-    [[nodiscard]] std::uint64_t traced() const { return contexts_.rays().total(); }
+    [[nodiscard]] const Camera& camera() const override { return camera_; }
+    [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
 
   private:
     /// Of one worker.

@@ -12,28 +12,24 @@ constexpr std::size_t kPixelsARun = 32;
 
 }  // namespace
 
-std::chrono::steady_clock::time_point deadline_of(double seconds) {
-    const std::chrono::duration<double> span(seconds);
-    return UncachedPixelTracer::Clock::now() +
-           std::chrono::duration_cast<UncachedPixelTracer::Clock::duration>(span);
-}
-
-std::chrono::steady_clock::time_point checking_deadline(double budget, double unknown) {
+std::chrono::steady_clock::time_point checking_deadline(const FrameClock& clock, double budget,
+                                                        double unknown) {
     constexpr double kCalm = 0.4, kBusy = 0.25;  // shares of the budget
     constexpr double kMuchUnknown = 0.3;
     const double share = std::lerp(kCalm, kBusy, std::min(unknown / kMuchUnknown, 1.0));
-    return budget > 0 ? deadline_of(share * budget) : std::chrono::steady_clock::time_point::max();
+    return budget > 0 ? clock.in(share * budget) : std::chrono::steady_clock::time_point::max();
 }
 
-std::chrono::steady_clock::time_point inferring_deadline(double budget) {
+std::chrono::steady_clock::time_point inferring_deadline(const FrameClock& clock, double budget) {
     constexpr double kMostShare = 0.5;
-    return deadline_of(kMostShare * budget);
+    return clock.in(kMostShare * budget);
 }
 
 std::chrono::steady_clock::time_point tracing_deadline(
-    std::chrono::steady_clock::time_point deadline, double budget, double unknown) {
+    const FrameClock& clock, std::chrono::steady_clock::time_point deadline, double budget,
+    double unknown) {
     constexpr double kLeastShare = 0.12, kBlindShare = 0.5;
-    return std::max(deadline, deadline_of(std::lerp(kLeastShare, kBlindShare, unknown) * budget));
+    return std::max(deadline, clock.in(std::lerp(kLeastShare, kBlindShare, unknown) * budget));
 }
 
 void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,

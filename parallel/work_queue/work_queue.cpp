@@ -80,6 +80,11 @@ void SubQueue::handle(const Announcement& announcement, Outbox& out) const {
     for (const int child : children_) out.messages.push_back({self_, child, announcement});
 }
 
+void SubQueue::finish(Outbox& out) const {
+    for (const int child : children_)
+        if (child != self_) out.messages.push_back({self_, child, Notice{Finish{}}});
+}
+
 void SubQueue::handle(WorkGrant given, Outbox& out) {
     ordered_ -= given.pieces.size();
     std::move(given.pieces.begin(), given.pieces.end(), std::back_inserter(store_));

@@ -100,6 +100,8 @@ class SubQueue {
     // From rank 0.
     void handle(const Announcement& announcement, Outbox& out) const;
     void handle(WorkGrant grant, Outbox& out);
+    /// No more work comes.
+    void finish(Outbox& out) const;
     // From its workers.
     void handle(int from, const WorkRequest& request, Outbox& out);
 

@@ -19,8 +19,9 @@ struct Packet {
     std::string bytes;
 };
 
-/// What may befall a message, where a test plants a fault. Without one each arrives once.
-using Mishap = std::function<int(const Packet& packet)>;  ///< how often it arrives
+/// What may befall a message, where a test plants a fault: it may change it, and says how often it
+/// arrives. Without one each arrives once, as it is.
+using Mishap = std::function<int(Packet& packet)>;
 
 class Network {
   public:

@@ -223,3 +223,15 @@ TEST_CASE("a walk by ranks whose view stands still becomes ever better, as by on
     check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 3}, 8));
     check_same(alone, draw_together(room, steps, options, {Variant::ranks, 5}, 9));
 }
+
+TEST_CASE("a walk by ranks whose view leaves no points goes on with its pixels where it rests") {
+    // Antimatter, in which what is seen depends on all that the ray has passed: nothing is reused.
+    Room room("", kRoom + "void antimatter hole 1 grey 0 0\nhole sphere far 0 0 4 0 90 0 1\n");
+    std::vector<Step> steps = walk(2);
+    steps.insert(steps.end(), 4, steps.back());
+    CloudOptions options;
+    options.refine = 0.4;
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
+    CHECK(alone.back().report.points == 0);
+    check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 3}, 13));
+}

@@ -111,13 +111,16 @@ TEST_CASE("every worker has one queue, and every queue is another's child") {
                     fed.erase(child);  // it is no worker of rank 0
                     CHECK(sub.rank != 0);
                     CHECK_FALSE(sub.children.empty());
+                    CHECK_FALSE(topology.below_sub_queue(sub.rank));
                 }
                 for (const Topology::SubQueue& sub : topology.sub_queues) {
                     for (const int rank : sub.children) {
                         fed.insert(rank);
                         CHECK(topology.workers[*topology.worker_index(rank)].queue == sub.rank);
+                        CHECK(topology.below_sub_queue(rank) == (rank != sub.rank));
                     }
                 }
+                CHECK_FALSE(topology.below_sub_queue(0));
                 CHECK(fed.size() == topology.workers.size());
                 for (const Topology::Worker& worker : topology.workers)
                     CHECK(fed.count(worker.rank) == 1);

@@ -57,12 +57,12 @@ TEST_CASE("walk: the less comes into view the more of a frame's time is for chec
     const auto share = [](double unknown) {
         constexpr double kBudget = 1000;  // [s]: what this test takes counts for nothing
         const std::chrono::duration<double> left =
-            checking_deadline(kBudget, unknown) - UncachedPixelTracer::Clock::now();
+            checking_deadline({}, kBudget, unknown) - UncachedPixelTracer::Clock::now();
         return left.count() / kBudget;
     };
     CHECK(share(0) == doctest::Approx(0.4).epsilon(0.01));
     CHECK(share(0.15) == doctest::Approx(0.325).epsilon(0.01));
     CHECK(share(0.3) == doctest::Approx(0.25).epsilon(0.01));
     CHECK(share(1) == doctest::Approx(0.25).epsilon(0.01));
-    CHECK(checking_deadline(0, 0) == UncachedPixelTracer::Clock::time_point::max());
+    CHECK(checking_deadline({}, 0, 0) == UncachedPixelTracer::Clock::time_point::max());
 }
