@@ -87,13 +87,15 @@ class Head:
         threads = sorted(int(task.name) for task in pathlib.Path(f"/proc/{self.launch.pid}/task").iterdir())
         return threads[["starter", "links", "server"].index(name)]
 
-    def serves(self):
+    def serves(self, what):
         """Whether somebody who comes sees the walk; False: not, by an error of this connection, or the head has ended."""
         try:
             visit(self.port).enter()
             return True
         except (OSError, Closed):
             return False
+        except AssertionError as error:
+            raise AssertionError(f"{what}: {error}") from error
 
     def end(self):
         """Its status where it had ended by itself, and what it has said."""
@@ -128,13 +130,13 @@ def check_later(head, folder, thread, call, error, index):
     """A call fails while the run is lost, or somebody comes: both are done again. Whether the call was made, and whether the head is still there."""
     begins = thread == "links" and call == "clone3"  # a thread that looks for hosts, when the first run is there
     if not begins:
-        assert head.serves()
+        assert head.serves("before anything fails")
     failing = Failing(head.thread(thread), call, error, index, folder / "calls")
     what = f"of the {thread}: {failing.what}"
     if thread == "starter":
         os.kill(next(iter(ranks_of(head.port))), signal.SIGKILL)
     tries = 0
-    while head.launch.poll() is None and not head.serves():
+    while head.launch.poll() is None and not head.serves(what):
         tries += 1
         assert tries < 20, f"{what}: nobody is served any more"
         time.sleep(.2)  # it may be about to end
