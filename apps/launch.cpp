@@ -128,6 +128,28 @@ std::string change_words(const LaunchHosts& before, const LaunchHosts& now) {
     return words.empty() ? "hosts have other slots" : words;
 }
 
+/// Where a walk's ranks keep what they know for those that may have to begin anew, on this machine.
+class KeptFolder {
+  public:
+    KeptFolder() {
+        std::error_code unknown;
+        path_ = (std::filesystem::temp_directory_path(unknown) / "lightwalk-XXXXXX").string();
+        if (mkdtemp(path_.data()) == nullptr) path_.clear();
+    }
+    ~KeptFolder() {
+        std::error_code failed;
+        if (!path_.empty()) std::filesystem::remove_all(path_, failed);
+    }
+    KeptFolder(const KeptFolder&) = delete;
+    KeptFolder& operator=(const KeptFolder&) = delete;
+
+    /// "": nowhere, and then nothing is kept.
+    [[nodiscard]] std::string file() const { return path_.empty() ? "" : path_ + "/picture"; }
+
+  private:
+    std::string path_;
+};
+
 class Launch {
   public:
     Launch(LaunchCommand options, Words command)
@@ -174,6 +196,8 @@ class Launch {
 
     /// From here on there are several threads.
     void open_head() {
+        kept_.emplace();
+        (void)setenv(kWalkKept, kept_->file().c_str(), 1);   // NOLINT: there is one thread
         (void)setenv(kWalkToken, make_secret().c_str(), 0);  // NOLINT: the same
         (void)setenv(kWalkHead, machine_name().c_str(), 1);  // NOLINT: there is one thread
         head_.emplace(server_options({command_.begin() + 1, command_.end()}), "starting the ranks");
@@ -193,7 +217,7 @@ class Launch {
         RanksToStart what{ranks(), hosts_, {}, is_by_srun() ? options_.srun : options_.mpirun};
         if (!hosts_.empty() && std::getenv("RAYPATH") != nullptr)  // NOLINT: nobody writes it
             what.variables.emplace_back("RAYPATH");
-        if (walks_) what.variables.insert(what.variables.end(), {kWalkToken, kWalkHead});
+        if (walks_) what.variables.insert(what.variables.end(), {kWalkToken, kWalkHead, kWalkKept});
         Words words = starter_words(starter_, what);
         words.insert(words.end(), {program_, command_.front()});
         if (again && !walks_ && !has("--resume")) words.emplace_back("--resume");
@@ -326,6 +350,7 @@ class Launch {
     bool can_go_on_ = false, walks_ = false;
     bool ready_ = false;    ///< the run's web server is there
     bool pausing_ = false;  ///< the run ends as other hosts are there
+    std::optional<KeptFolder> kept_;
     std::optional<WalkHead> head_;
     std::optional<HostWatch> watch_;
 };
