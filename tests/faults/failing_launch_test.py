@@ -76,7 +76,7 @@ class Head:
     """A walk's head with a run of one rank."""
 
     def __init__(self, program, scene, folder):
-        self.port = free_port()
+        self.port, self.failed = free_port(), ""
         mpirun = f"--oversubscribe --bind-to none --mca orte_tmpdir_base {folder}"
         self.launch = subprocess.Popen([program, "launch", "--ranks", "1", "--retries", "1000", "--mpirun", mpirun, "walk", "--port", str(self.port), "-n", "1",
                                         *WORDS.split(), scene], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -88,9 +88,13 @@ class Head:
         return threads[["starter", "links", "server"].index(name)]
 
     def serves(self, what):
-        """Whether somebody who comes sees the walk; False: not, by an error of this connection, or the head has ended."""
+        """Whether somebody who comes is answered by the run; False: not, by an error of this connection, or the head has ended."""
         try:
-            visit(self.port).enter()
+            client = visit(self.port)
+            client.told("loaded")
+            client.look()
+            client.socket.send({"type": "pick", "id": 99, "x": .5, "y": .4})  # refused, where there is no picture yet
+            client.until(lambda m: isinstance(m, dict) and m["type"] in ("picked", "refused") and m.get("id") == 99)
             return True
         except (OSError, Closed):
             return False
@@ -130,9 +134,9 @@ def check_later(head, folder, thread, call, error, index):
     """A call fails while the run is lost, or somebody comes: both are done again. Whether the call was made, and whether the head is still there."""
     begins = thread == "links" and call == "clone3"  # a thread that looks for hosts, when the first run is there
     if not begins:
-        assert head.serves("before anything fails")
+        assert head.serves(f"before {call} fails, after {head.failed or 'nothing'}")
     failing = Failing(head.thread(thread), call, error, index, folder / "calls")
-    what = f"of the {thread}: {failing.what}"
+    what = head.failed = f"of the {thread}: {failing.what}"
     if thread == "starter":
         os.kill(next(iter(ranks_of(head.port))), signal.SIGKILL)
     tries = 0
