@@ -16,7 +16,7 @@ class ResidentScene;
 /// on which the walk's head is: the page is served there, and rank 0 listens for the head alone, on
 /// any port, of which it prints the address.
 inline constexpr const char *kWalkToken = "LIGHTWALK_WALK_TOKEN",
-                            *kWalkHead = "LIGHTWALK_WALK_HEAD";
+                            *kWalkHead = "LIGHTWALK_WALK_HEAD", *kWalkKept = "LIGHTWALK_WALK_KEPT";
 
 inline constexpr int kSuccessStatus = 0;
 inline constexpr int kFailureStatus = 1;  ///< bad input, or output that could not be written

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -12,7 +11,6 @@
 #include <optional>
 #include <random>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -22,6 +20,7 @@
 #include "apps/commands.h"
 #include "apps/head/walk_head.h"
 #include "apps/launch_hosts.h"
+#include "apps/rank_starter.h"
 #include "apps/session/lightwalk/ranks.h"
 #include "apps/walk_command.h"
 #include "core/error.h"
@@ -40,11 +39,18 @@ constexpr std::chrono::milliseconds kRest{10'000};  ///< after hosts that could 
 constexpr std::chrono::milliseconds kLongestRest{600'000};
 
 struct LaunchCommand {
-    int ranks = 0;      ///< --ranks; 0: one for each slot of the hosts
-    std::string hosts;  ///< --hosts: file; "": this machine alone
-    int retries = 3;    ///< --retries
-    std::string more;   ///< --mpirun: words for mpirun
+    int ranks = 0;                       ///< --ranks; 0: one for each slot of the hosts
+    std::string hosts;                   ///< --hosts: file; "": this machine alone
+    int retries = 3;                     ///< --retries
+    std::string mpirun, srun;            ///< further words for these
+    std::optional<RankStarter> starter;  ///< by which of these options is there
 };
+
+void choose(LaunchCommand& command, RankStarter starter) {
+    if (command.starter.value_or(starter) != starter)
+        throw UsageError("option --srun: not together with --mpirun");
+    command.starter = starter;
+}
 
 OptionTable launch_table(LaunchCommand& c) {
     const Action answered{[] {}};  // by main, wherever they stand
@@ -64,16 +70,17 @@ OptionTable launch_table(LaunchCommand& c) {
            "on from what is kept, without hosts that do not answer. After a minute without a loss "
            "it counts anew",
            With{.least = 0, .most = kMostRetries, .expected = "a number from 0"}},
-          {"--mpirun WORDS", &c.more,
-           "more words for mpirun, in one: \"--map-by socket --bind-to socket\""},
+          {"--mpirun WORDS", &c.mpirun,
+           "more words for mpirun, in one: \"--map-by socket --bind-to socket\"",
+           With{.then = [&c] { choose(c, RankStarter::mpirun); }}},
+          {"--srun WORDS", &c.srun,
+           "ranks are started by Slurm's srun, with more words for it, in one: \"--mpi=pmi2\", or "
+           "\"\". That is so without the option, too, in a job of Slurm's, unless there is "
+           "--mpirun",
+           With{.then = [&c] { choose(c, RankStarter::srun); }}},
           {"Help", SectionTitle{}},
           {"--help", answered, "this text"},
           {"--version", answered, "the version of Lightwalk"}}}};
-}
-
-/// A setting of Open MPI, unless the user has made it.
-void set_by_default(const char* name, const char* value) {
-    (void)setenv(name, value, 0);  // NOLINT(concurrency-mt-unsafe): there is one thread
 }
 
 /// A secret of 128 bits, as 32 hex digits.
@@ -85,14 +92,6 @@ std::string make_secret() {
     return digits;
 }
 
-/// With these mpirun notices that a host is gone, and a rank that is killed holds no lock.
-void settle_mpi() {
-    set_by_default("OMPI_MCA_oob_tcp_keepalive_time", "5");
-    set_by_default("OMPI_MCA_oob_tcp_keepalive_intvl", "2");
-    set_by_default("OMPI_MCA_oob_tcp_keepalive_probes", "2");
-    set_by_default("PMIX_MCA_gds", "hash");
-}
-
 /// What `walk` says of who may open its page, by its words.
 WebServerOptions server_options(const Words& words) {
     ServeCommand serve;
@@ -102,23 +101,6 @@ WebServerOptions server_options(const Words& words) {
         if (!table.take(line)) line.skip(1);
     serve.server.token = std::getenv(kWalkToken);  // NOLINT: there is one thread
     return serve.server;
-}
-
-std::string machine_name() {
-    std::array<char, 256> name{};
-    (void)gethostname(name.data(), name.size() - 1);
-    return name.data();
-}
-
-/// By what mpirun has written: "rank 2 was killed"; "": it tells of no rank.
-std::string lost_rank(const std::string& last_words) {
-    static const std::regex kTold(
-        R"(process rank\s+(\d+)\s+with PID \d+ on node\s+(\S+)\s+exited on\s+signal\s+(\d+))");
-    std::smatch found;
-    if (!std::regex_search(last_words, found, kTold)) return {};
-    const std::string signal = found[3].str();
-    return "rank " + found[1].str() + (found[2] == machine_name() ? "" : " on " + found[2].str()) +
-           (signal == std::to_string(SIGKILL) ? " was killed" : " was ended by signal " + signal);
 }
 
 std::string joined(const Words& names) {
@@ -146,12 +128,35 @@ std::string change_words(const LaunchHosts& before, const LaunchHosts& now) {
     return words.empty() ? "hosts have other slots" : words;
 }
 
+/// Where a walk's ranks keep what they know for those that may have to begin anew, on this machine.
+class KeptFolder {
+  public:
+    KeptFolder() {
+        std::error_code unknown;
+        path_ = (std::filesystem::temp_directory_path(unknown) / "lightwalk-XXXXXX").string();
+        if (mkdtemp(path_.data()) == nullptr) path_.clear();
+    }
+    ~KeptFolder() {
+        std::error_code failed;
+        if (!path_.empty()) std::filesystem::remove_all(path_, failed);
+    }
+    KeptFolder(const KeptFolder&) = delete;
+    KeptFolder& operator=(const KeptFolder&) = delete;
+
+    /// "": nowhere, and then nothing is kept.
+    [[nodiscard]] std::string file() const { return path_.empty() ? "" : path_ + "/picture"; }
+
+  private:
+    std::string path_;
+};
+
 class Launch {
   public:
     Launch(LaunchCommand options, Words command)
         : options_(std::move(options)), command_(std::move(command)) {
         std::error_code error;
         program_ = std::filesystem::canonical("/proc/self/exe", error).string();
+        starter_ = options_.starter ? *options_.starter : usual_starter();
         if (!options_.hosts.empty()) hosts_ = read_launch_hosts(options_.hosts);
         const bool picture = command_.front() == "render";
         walks_ = command_.front() == "walk";
@@ -162,7 +167,7 @@ class Launch {
     }
 
     int run() {
-        settle_mpi();
+        settle_starter(starter_);
         const ChildSignals signals;
         if (walks_) open_head();
         for (int retry = 0;;) {
@@ -171,7 +176,7 @@ class Launch {
             const bool was_long = std::chrono::steady_clock::now() - begin > kLongRun;
             if (was_long) retry = 0;
             const int status = WIFEXITED(end.how) ? WEXITSTATUS(end.how) : 128 + WTERMSIG(end.how);
-            if (end.interrupted) return status;
+            if (end.interrupted) return head_ && head_->failed() ? kFailureStatus : status;
             if (exchange_hosts(ready_ || was_long)) continue;
             const bool done = status == kSuccessStatus || status == kUsageStatus;
             if (done || retry == options_.retries) return status;
@@ -187,9 +192,13 @@ class Launch {
         return std::ranges::find(command_, word) != command_.end();
     }
 
+    [[nodiscard]] bool is_by_srun() const { return starter_ == RankStarter::srun; }
+
     /// From here on there are several threads.
     void open_head() {
-        set_by_default(kWalkToken, make_secret().c_str());
+        kept_.emplace();
+        (void)setenv(kWalkKept, kept_->file().c_str(), 1);   // NOLINT: there is one thread
+        (void)setenv(kWalkToken, make_secret().c_str(), 0);  // NOLINT: the same
         (void)setenv(kWalkHead, machine_name().c_str(), 1);  // NOLINT: there is one thread
         head_.emplace(server_options({command_.begin() + 1, command_.end()}), "starting the ranks");
         if (!hosts_.empty()) watch_.emplace(options_.hosts, hosts_);
@@ -205,17 +214,11 @@ class Launch {
     }
 
     [[nodiscard]] Words words_of(bool again) const {
-        Words words{"mpirun"};
-        std::string list;
-        for (const LaunchHost& host : hosts_)
-            list += (list.empty() ? "" : ",") + host.name + ':' + std::to_string(host.slots);
-        if (!hosts_.empty()) words.insert(words.end(), {"--host", list});
-        if (ranks() > 0) words.insert(words.end(), {"-n", std::to_string(ranks())});
+        RanksToStart what{ranks(), hosts_, {}, is_by_srun() ? options_.srun : options_.mpirun};
         if (!hosts_.empty() && std::getenv("RAYPATH") != nullptr)  // NOLINT: nobody writes it
-            words.insert(words.end(), {"-x", "RAYPATH"});
-        if (walks_) words.insert(words.end(), {"-x", kWalkToken, "-x", kWalkHead});
-        std::istringstream more(options_.more);
-        for (std::string word; more >> word;) words.push_back(word);
+            what.variables.emplace_back("RAYPATH");
+        if (walks_) what.variables.insert(what.variables.end(), {kWalkToken, kWalkHead, kWalkKept});
+        Words words = starter_words(starter_, what);
         words.insert(words.end(), {program_, command_.front()});
         if (again && !walks_ && !has("--resume")) words.emplace_back("--resume");
         words.insert(words.end(), command_.begin() + 1, command_.end());
@@ -231,7 +234,8 @@ class Launch {
         try {
             run.emplace(words_of(again), signals, std::move(output));
         } catch (const std::system_error& error) {
-            throw InputError(std::string(error.what()) + "; it is in Debian's package openmpi-bin");
+            const bool missing = error.code() == std::errc::no_such_file_or_directory;
+            throw InputError(error.what() + (missing ? "; " + starter_package(starter_) : ""));
         }
         return run->wait();
     }
@@ -243,8 +247,8 @@ class Launch {
         std::smatch found;
         if (ready_ || !std::regex_search(text, found, kAddress)) return false;
         ready_ = true;
-        // Rank 0 is on the first host, whose name in the list is one that is known here.
-        const bool here = found[1] == "127.0.0.1" || hosts_.empty();
+        // mpirun's rank 0 is on the first host, whose name in the list is one that is known here.
+        const bool here = found[1] == "127.0.0.1" || hosts_.empty() || is_by_srun();
         head_->begin_run(here ? found[1].str() : hosts_.front().name,
                          static_cast<std::uint16_t>(std::stoul(found[2].str())), found[3].str());
         return true;
@@ -285,10 +289,11 @@ class Launch {
         constexpr int kKilled = 128;
         const Words gone = hosts_.empty() ? Words() : leave_out_lost();
         if (!gone.empty()) return joined(gone) + (gone.size() > 1 ? " are lost" : " is lost");
-        if (status <= kKilled) return {};
-        std::string rank = lost_rank(end.last_words);
-        if (!rank.empty()) return rank;
-        return WIFSIGNALED(end.how) ? "mpirun was killed"
+        // srun ends with any status where a host is gone.
+        std::string loss;
+        if (status > kKilled || is_by_srun()) loss = told_loss(starter_, end.last_words);
+        if (!loss.empty() || status <= kKilled) return loss;
+        return WIFSIGNALED(end.how) ? std::string(is_by_srun() ? "srun" : "mpirun") + " was killed"
                                     : "ended with status " + std::to_string(status);
     }
 
@@ -334,6 +339,7 @@ class Launch {
     }
 
     LaunchCommand options_;
+    RankStarter starter_ = RankStarter::mpirun;
     Words command_;
     std::string program_;
     LaunchHosts hosts_;   ///< in use
@@ -344,6 +350,7 @@ class Launch {
     bool can_go_on_ = false, walks_ = false;
     bool ready_ = false;    ///< the run's web server is there
     bool pausing_ = false;  ///< the run ends as other hosts are there
+    std::optional<KeptFolder> kept_;
     std::optional<WalkHead> head_;
     std::optional<HostWatch> watch_;
 };
@@ -355,7 +362,8 @@ OptionTable launch_option_table() {
 }
 
 int run_launch(const std::vector<std::string>& words, Communicator* ranks) {
-    if (ranks != nullptr) throw UsageError("starts mpirun by itself: call it without mpirun");
+    if (ranks != nullptr)
+        throw UsageError("starts ranks by itself: call it without mpirun or srun");
     LaunchCommand command;
     const OptionTable table = launch_table(command);
     OptionWords line(words);

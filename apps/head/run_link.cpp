@@ -97,7 +97,12 @@ void RunLink::write() {
 
 void RunLink::on_write(beast::error_code error) {
     writing_ = false;
-    if (ended_ || error) return;  // what is wrong the next read tells
+    if (ended_) return;
+    if (error) {  // why, the next read tells, where the run has said so; at the latest it ends
+        beast::get_lowest_layer(socket_).socket().shutdown(
+            boost::asio::ip::tcp::socket::shutdown_both, error);
+        return;
+    }
     waiting_bytes_ -= waiting_.front().size();
     waiting_.pop_front();
     if (!waiting_.empty()) write();

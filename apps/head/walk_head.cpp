@@ -15,6 +15,7 @@
 #include <utility>
 #include <variant>
 
+#include "apps/head/newest_frame.h"
 #include "apps/head/run_file.h"
 #include "apps/head/run_link.h"
 #include "apps/walk/pages.h"
@@ -74,6 +75,7 @@ class WalkHead::Core final : public WebHandler, public RunLinkHost {
 
     [[nodiscard]] std::string url() const { return server_.url(); }
     [[nodiscard]] Clock::duration quiet() const { return Clock::now() - last_asked_.load(); }
+    [[nodiscard]] bool failed() const { return failed_; }
     template <class Work>
     void post(Work work) {
         net::post(context_, std::move(work));
@@ -93,11 +95,12 @@ class WalkHead::Core final : public WebHandler, public RunLinkHost {
   private:
     struct Guest {
         std::string hello;
+        HelloRequest wants = {};             ///< the same
         std::shared_ptr<RunLink> link = {};  ///< null: there is none
-        bool beside = false;                 ///< it is about a scene beside the walk's
         bool drives = false;                 ///< the run has said so last
         bool welcomed = false;               ///< by this run or one before
         bool interrupted = false;            ///< it has been told, and not welcomed since
+        bool pictured = false;               ///< it sees what was drawn last
     };
 
     template <class Work>
@@ -108,7 +111,9 @@ class WalkHead::Core final : public WebHandler, public RunLinkHost {
     void connect_next();
     void try_again();
     void interrupt(ClientId client, Guest& guest, const std::string& why);
+    void say_why(ClientId client, Guest& guest);
 
+    std::atomic<bool> failed_{false};
     // Of the server's thread.
     std::set<ClientId> greeted_;
     std::atomic<Clock::time_point> last_asked_{Clock::now()};
@@ -121,6 +126,7 @@ class WalkHead::Core final : public WebHandler, public RunLinkHost {
     std::string why_;  ///< why there is no run
     std::map<ClientId, Guest> guests_;
     std::optional<ClientId> connecting_;  ///< who waits for its welcome
+    NewestFrame newest_;
 
     WebServer server_;
     std::thread server_thread_, run_thread_;
@@ -133,6 +139,7 @@ void WalkHead::Core::serve(Work work) {
         work();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "lightwalk launch: the page's server: %s\n", error.what());
+        failed_ = true;
         (void)kill(getpid(), SIGTERM);
     }
 }
@@ -156,7 +163,7 @@ void WalkHead::Core::message(ClientId client, std::string_view text) {
     if (hello == nullptr) throw InputError("the first message must be hello");
     greeted_.insert(client);
     Guest guest{std::string(text)};
-    guest.beside = hello->beside;
+    guest.wants = *hello;
     post([this, client, guest = std::move(guest)]() mutable { greet(client, std::move(guest)); });
 }
 
@@ -166,6 +173,7 @@ void WalkHead::Core::closed(ClientId client) {
         const auto guest = guests_.extract(client);
         if (guest.empty()) return;
         if (guest.mapped().link) guest.mapped().link->stop();
+        newest_.left(client);
         if (connecting_ == client) connecting_.reset();
         connect_next();
     });
@@ -181,15 +189,29 @@ void WalkHead::Core::save(const std::string& path, WebReply reply) {
 }
 
 void WalkHead::Core::greet(ClientId client, Guest guest) {
-    if (!run_) server_.send_text(client, walk_text(LoadingReply{why_, 0}));
-    guests_.emplace(client, std::move(guest));
+    Guest& there = guests_.emplace(client, std::move(guest)).first->second;
+    if (!run_) say_why(client, there);
     connect_next();
+}
+
+/// To who has not been welcomed by any run.
+void WalkHead::Core::say_why(ClientId client, Guest& guest) {
+    if (!std::exchange(guest.pictured, true) && !guest.wants.beside) {
+        const std::optional<NewestFrame::Messages> seen = newest_.messages(guest.wants);
+        guest.pictured = seen.has_value();
+        if (seen) {
+            for (const std::string& text : seen->texts) server_.send_text(client, text);
+            server_.send_binary(client, std::make_shared<const std::string>(seen->frame));
+        }
+    }
+    server_.send_text(client, walk_text(LoadingReply{why_, 0}));
 }
 
 /// What is said while there is no run is lost: who said it is told so, and says it again.
 void WalkHead::Core::pass_on(ClientId client, std::string text) {
     const auto guest = guests_.find(client);
     if (guest == guests_.end() || !guest->second.link) return;
+    if (guest->second.drives && !guest->second.wants.beside) newest_.said(text);
     if (!guest->second.link->send(std::move(text)))
         server_.close(client, "too many messages wait for an answer");
 }
@@ -222,10 +244,11 @@ void WalkHead::Core::end_run(const std::string& why) {
 
 void WalkHead::Core::interrupt(ClientId client, Guest& guest, const std::string& why) {
     if (guest.link) std::exchange(guest.link, nullptr)->stop();
-    if (guest.beside) return server_.close(client, why);  // its walk is another one now
+    newest_.left(client);
+    if (guest.wants.beside) return server_.close(client, why);  // its walk is another one now
     guest.interrupted = true;
-    server_.send_text(client, guest.welcomed ? walk_text(InterruptedReply{why})
-                                             : walk_text(LoadingReply{why, 0}));
+    if (!guest.welcomed) return say_why(client, guest);
+    server_.send_text(client, walk_text(InterruptedReply{why}));
 }
 
 /// One after the other, as the first who greets a run drives: that is who drove before.
@@ -251,7 +274,10 @@ void WalkHead::Core::came(ClientId client, std::shared_ptr<const std::string> by
         guest.interrupted = false;
         connect_next();
     }
-    if (binary) return server_.send_binary(client, std::move(bytes));
+    if (binary) {
+        if (!guest.wants.beside) newest_.came(client, guest.drives, *bytes);
+        return server_.send_binary(client, std::move(bytes));
+    }
     const nlohmann::json message = read_short(*bytes);
     if (message.contains("driver")) guest.drives = message["driver"] == true;
     // Whether the page's connection ends, too, the link's end tells.
@@ -262,6 +288,7 @@ void WalkHead::Core::came(ClientId client, std::shared_ptr<const std::string> by
 void WalkHead::Core::ended(ClientId client, const std::optional<std::string>& refusal) {
     Guest& guest = guests_.at(client);
     guest.link.reset();
+    newest_.left(client);
     if (connecting_ == client) connecting_.reset();
     if (refusal) {
         guests_.erase(client);
@@ -299,6 +326,10 @@ void WalkHead::end_run(const std::string& why) {
 
 std::chrono::duration<double> WalkHead::quiet() const {
     return core_->quiet();
+}
+
+bool WalkHead::failed() const {
+    return core_->failed();
 }
 
 }  // namespace lightwalk

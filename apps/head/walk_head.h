@@ -31,6 +31,8 @@ class WalkHead {
     void end_run(const std::string& why);
     /// How long nobody has asked for anything, by moving or otherwise.
     [[nodiscard]] std::chrono::duration<double> quiet() const;
+    /// One of its threads could not go on: it has said why, and told this process to end.
+    [[nodiscard]] bool failed() const;
 
   private:
     class Core;

@@ -57,6 +57,28 @@ std::optional<AssembledFrame> RankFrames::drawn(FrameOrder order, const StopFlag
     return frame;
 }
 
+std::optional<KnownPicture> RankFrames::known() const {
+    const ProgressivePicture* const picture = lead_ ? lead_->progressive() : nullptr;
+    if (picture == nullptr || !last_ || light_groups()) return std::nullopt;
+    KnownPicture known{last_->view, options_.width, options_.height, walking_ == indirect_.get()};
+    known.values.resize(picture->origins().size());
+    for (std::size_t i = 0; i < known.values.size(); ++i) {
+        const PixelOrigin::Kind kind = picture->origins()[i].kind;
+        if (kind == PixelOrigin::Kind::traced || kind == PixelOrigin::Kind::reused)
+            known.values[i] = {picture->radiance()[i], picture->distance()[i]};
+    }
+    return known;
+}
+
+bool RankFrames::recall(const KnownPicture& known, const StopFlag& stop) {
+    if (light_groups()) return false;  // what each adds is not known
+    const std::optional<AssembledFrame> left = drawn(
+        lead_->recall_order(known.values, payload(known.view, walking_ == indirect_.get())), stop);
+    if (!left) return false;
+    lead_->recalled(left->frame.report.points > 0);
+    return left->frame.report.points > 0;
+}
+
 WalkFrame RankFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
     lead_->set_budget(budget);
     lead_->set_refine(refine);

@@ -24,6 +24,8 @@ class RankFrames final : public LiveFrames {
     /// Share of the points that ranks keep at the next change(), where it keeps some.
     void set_kept(double share) { kept_share_ = share; }
     void forget_view() override { lead_->abandon(); }
+    [[nodiscard]] std::optional<KnownPicture> known() const override;
+    [[nodiscard]] bool recall(const KnownPicture& known, const StopFlag& stop) override;
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
     [[nodiscard]] const ProgressivePicture* progressive(const StopFlag& stop) override;

@@ -415,7 +415,7 @@ function drawn(frame, depth, told) {
     camera.take(session.driving && !sent ? null : session.frame_view, depth);
     light.note_exposure(exposure);
     light.denoised = denoised;
-    if (awaiting_picture && session.connection.connected) {
+    if (awaiting_picture && welcomed) {
         awaiting_picture = false;
         counters.ready = true;
         uncover();

@@ -97,6 +97,7 @@ void RenderLoop::step(const StopFlag& stop, std::chrono::milliseconds longest) {
     report(now);
     draw_plan();
     if (!hurries) measure_planes(stop);
+    keep(now);
     if (!wish_.probes.empty() && !hurries && now - measured_at_ >= kProbeInterval) measure_probes();
 }
 
@@ -327,6 +328,7 @@ void RenderLoop::draw(const StopFlag& stop) {
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work() || (drawn_ && is_dimming())) return;
     const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
+    recall(ambient, stop);
     const Size size = size_now();
     if (small_sketches_ > 0 || sketches_ > 0) live_.look_anew();
     live_.look_around(!wish_.view->moving);

@@ -11,6 +11,7 @@
 #include "apps/session/scene_session.h"
 #include "apps/walk/clean_view.h"
 #include "apps/walk/client_inbox.h"
+#include "apps/walk/kept_picture.h"
 #include "apps/walk/material_edits.h"
 #include "apps/walk/scene_follower.h"
 #include "apps/walk/scene_state.h"
@@ -47,6 +48,8 @@ struct RenderLoopOptions {
     /// Puts another scene in its place, likewise.
     std::function<const SceneSession&(const std::shared_ptr<const CompiledScene>& scene)> replace =
         {};
+    /// For who begins anew where this process is lost. Null: nobody will.
+    std::shared_ptr<const KeptPicture> kept = {};
     /// Denoises what is shown of a view that rests, where the page wants it. None: nothing does.
     PictureCleaner::Denoise denoise = {};
 };
@@ -129,6 +132,9 @@ class RenderLoop {
     void draw_plan();
     void measure_planes(const StopFlag& stop);
     void draw(const StopFlag& stop);
+    [[nodiscard]] bool may_be_kept() const;
+    void recall(WalkAmbient ambient, const StopFlag& stop);
+    void keep(Clock::time_point now);
     void note_size(Size size, double budget);
     void clean();
     void show(Clock::time_point now);
@@ -180,8 +186,12 @@ class RenderLoop {
     bool dimmed_ = false;  ///< since a picture was shown
     MovingSize moving_size_;
     std::optional<CleanView> clean_view_;  ///< nothing: none is shown
-    double share_ = 1;                     ///< see share_time
-    double aside_seconds_ = 0;             ///< beside the steps of a moving view's frame, of late
+    bool recalled_ = false;                ///< what others have kept was looked for
+    std::optional<View> kept_view_;        ///< of the picture that is kept
+    bool kept_whole_ = false;              ///< nothing of it was missing
+    Clock::time_point kept_at_;
+    double share_ = 1;          ///< see share_time
+    double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late
     Pace pace_;
 };
 

@@ -324,6 +324,8 @@ class WalkRun final : CommandRun {
         options.change = scene_changer(renderer.backend());
         if (command_.serve->denoise) options.denoise = denoise_function();
         if (ranks() == nullptr) options.replace = scene_replacer(renderer.backend());
+        if (ranks() != nullptr && !reads_standard_input())
+            options.kept = kept_picture(read.files->recorded());
         RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
                         *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();

@@ -1,9 +1,11 @@
 #pragma once
-// Encodes a frame as one binary message, in the layout of io/net/README.md.
+// A frame as one binary message, in the layout of io/net/README.md.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/math/vec3.h"
 
@@ -36,5 +38,13 @@ struct WalkFramePiece {
 /// The message of a frame; at most 65535 pieces of less than 4 GB each.
 [[nodiscard]] std::string encode_walk_frame(const WalkFrameHeader& header,
                                             std::span<const WalkFramePiece> pieces);
+
+struct WalkFrameParts {
+    WalkFrameHeader header;
+    std::vector<WalkFramePiece> pieces;  ///< their bytes are the message's
+};
+/// Take a message apart, which must outlive the result. Nothing: it is no frame, has pieces of an
+/// unknown codec or outside its picture, or ends elsewhere.
+[[nodiscard]] std::optional<WalkFrameParts> parse_walk_frame(std::string_view message);
 
 }  // namespace lightwalk

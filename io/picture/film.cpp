@@ -13,11 +13,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "core/error.h"
+#include "io/files/program_path.h"
 
 namespace lightwalk {
 namespace {
@@ -79,16 +79,8 @@ bool is_film(const std::string& path) {
 }
 
 std::string film_encoder() {
-    const char* const list = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nobody sets it
-    std::string_view folders = list != nullptr ? list : "/usr/local/bin:/usr/bin:/bin";
-    while (!folders.empty()) {
-        const std::size_t end = std::min(folders.find(':'), folders.size());
-        const fs::path program = fs::path(folders.substr(0, end)) / "ffmpeg";
-        folders.remove_prefix(std::min(end + 1, folders.size()));
-        std::error_code ignored;
-        if (fs::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0)
-            return program.string();
-    }
+    std::string program = program_path("ffmpeg");
+    if (!program.empty()) return program;
     throw InputError(
         "films are encoded by the program ffmpeg, which is not installed: install it, or write "
         "pictures (-o frame%04d.png)");

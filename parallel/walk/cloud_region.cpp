@@ -1,6 +1,7 @@
 #include "parallel/walk/cloud_region.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -101,6 +102,62 @@ void CloudRegion::infer(PixelCaster& caster, Executor& executor, const StopFlag&
 void CloudRegion::refine(std::span<const PixelPlace> places) {
     std::fill(frame_.causes.begin(), frame_.causes.end(), TraceCause::none);
     to_trace_.refine(places);
+}
+
+namespace {
+
+constexpr int kTileSide = 8;         ///< of pixels that are probed together
+constexpr float kSamePlace = 0.01f;  ///< of what is known, as a share of the distance
+/// From farther aside what is known does not hold: how fast highlights move is not asked for, as
+/// that takes longer than all else [rad].
+constexpr float kRecalledAngle = 0.1f;
+
+/// Pixels that are probed together, and what is known of them.
+struct KnownTile {
+    std::vector<PixelPlace> places;
+    std::vector<PixelValue> values;
+};
+
+void recall_tile(const KnownTile& tile, PixelCaster& caster, double tolerance, int worker,
+                 std::vector<PixelPoints>& points) {
+    std::array<PixelVisibility, kTileSide * kTileSide> seen;
+    caster.probe(tile.places, {}, std::span(seen).first(tile.places.size()), worker);
+    for (std::size_t i = 0; i < tile.places.size(); ++i) {
+        const PrimaryVisibility& ahead = seen[i].ahead;
+        const PixelValue& value = tile.values[i];
+        const bool same = seen[i].ray && ahead.seen && !seen[i].mirrored.seen &&
+                          std::abs(ahead.distance - value.distance) <= kSamePlace * value.distance;
+        if (!same) continue;
+        points.push_back(points_of({seen[i], value.radiance, {}, value.distance}, tolerance));
+        for (CloudPoint& point : points.back().points)
+            point.max_view_angle = std::min(point.max_view_angle, kRecalledAngle);
+    }
+}
+
+}  // namespace
+
+void CloudRegion::recall(std::span<const PixelValue> known, PixelCaster& caster,
+                         Executor& executor) {
+    const auto width = static_cast<std::size_t>(points_.width());
+    if (known.size() != width * static_cast<std::size_t>(points_.height()))
+        throw InputError("a known picture of a walk is of another size than its frame");
+    std::vector<std::vector<PixelPoints>> found(blocks_.size());
+    executor.for_each(blocks_.size(), [&](std::size_t block, int worker) {
+        for (const PixelRectangle& area : make_blocks(blocks_[block], kTileSide)) {
+            KnownTile tile;
+            for (int y = area.y0; y < area.y1; ++y)
+                for (int x = area.x0; x < area.x1; ++x) {
+                    const PixelValue& value =
+                        known[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+                    if (!(value.distance > 0)) continue;
+                    tile.places.push_back({x, y});
+                    tile.values.push_back(value);
+                }
+            recall_tile(tile, caster, options_.tolerance, worker, found[block]);
+        }
+    });
+    for (const std::vector<PixelPoints>& of_block : found)
+        for (const PixelPoints& points : of_block) points_.leave(points);
 }
 
 AgeCounts CloudRegion::age(Executor& executor) {

@@ -49,6 +49,11 @@ class CloudRegion {
     /// The view rests: trace these of its pixels.
     void refine(std::span<const PixelPlace> places);
 
+    /// The view rests: pixels leave points that are known from elsewhere, where one place of a
+    /// surface shows all of their light.
+    /// @param known  see FrameOrder
+    void recall(std::span<const PixelValue> known, PixelCaster& caster, Executor& executor);
+
     /// Put what was traced into the frame; see TraceList.
     void show(bool passing) { to_trace_.show(frame_, passing); }
     /// What is not known yet gets the colours of the same surfaces around, as far as there is time.

@@ -89,6 +89,18 @@ FrameOrder FrameLead::trace_order(const ProgressiveWork& work, std::string paylo
     return order;
 }
 
+FrameOrder FrameLead::recall_order(std::vector<PixelValue> known, std::string payload) const {
+    FrameOrder order = new_order(std::move(payload));
+    order.rests = order.leaves = true;
+    order.known = std::move(known);
+    return order;
+}
+
+void FrameLead::recalled(bool points) {
+    empty_ = !points;
+    ++frame_;
+}
+
 void FrameLead::begin_progressive(const CloudFrame& last, std::span<const PixelOrigin> origins) {
     progressive_.begin(last.radiance, last.distance, origins);
     begun_ = true;

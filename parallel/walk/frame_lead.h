@@ -53,6 +53,13 @@ class FrameLead {
     /// Pixels of the last frame's view that are no part of the frames, and leave no points.
     [[nodiscard]] FrameOrder trace_order(const ProgressiveWork& work, std::string payload) const;
 
+    /// An order that traces nothing: pixels leave the points of a picture that is known from
+    /// elsewhere, of the size of the frames. Only before the first frame.
+    [[nodiscard]] FrameOrder recall_order(std::vector<PixelValue> known, std::string payload) const;
+    /// It is done.
+    /// @param points  whether it has left some
+    void recalled(bool points);
+
     /// Frames of another size follow, from the same points.
     void resize(int width, int height);
     /// What is known of the last frame, so that it may be refined further after frames of other

@@ -29,6 +29,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     CloudReport& report = region.frame().report;
     if (order.rests) {
         refine(region, order.refined);
+        if (!order.known.empty()) region.recall(order.known, caster, executor);
     } else {
         region.project(executor);
         if (!exchange.exchange_points(region, stop)) return false;

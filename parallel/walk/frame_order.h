@@ -27,6 +27,9 @@ struct FrameOrder {
     bool leaves = false;      ///< whether these pixels leave points
     std::int32_t sample = 0;  ///< see PixelCaster
     std::vector<PixelPlace> refined;
+    /// Row by row from the bottom, all of a picture whose pixels leave points though nothing is
+    /// traced (KnownPicture::values); empty: there is none.
+    std::vector<PixelValue> known;
     bool aside = false;          ///< of what lies beside a view that rests, for its points alone
     bool tells_origins = false;  ///< whether parts say where the last frame's pixels come from
     LightMixture mixture;        ///< of the light groups, where these are kept

@@ -17,6 +17,7 @@
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_frames.h"
 #include "parallel/walk/first_light.h"
+#include "parallel/walk/known_picture.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
@@ -88,6 +89,15 @@ class LiveFrames {
     void begin(int width, int height, bool indirect, std::uint64_t first = 0);
 
     // After that; all throw what the tracers throw.
+
+    /// What is known of the last frame, where its view rests: for recall(), in another process.
+    /// Nothing: there is none, or nothing can be recalled.
+    [[nodiscard]] virtual std::optional<KnownPicture> known() const { return std::nullopt; }
+    /// Before the first frame, of this picture's size and light: it leaves points as if it had been
+    /// drawn, of a scene in the same state. False: it does not.
+    [[nodiscard]] virtual bool recall(const KnownPicture& /*known*/, const StopFlag& /*stop*/) {
+        return false;
+    }
 
     /// Frames of another size from here on, of the same light: what is known of the scene stays,
     /// but the next frame is no longer that of render_frame to the bit.

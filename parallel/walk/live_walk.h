@@ -40,6 +40,12 @@ class LiveWalk {
     /// Throws what the tracers throw. False: stopped; the picture is the one before.
     [[nodiscard]] bool next(const View& view, int width, int height, WalkAmbient use, double budget,
                             const StopFlag& stop);
+    /// Before the first picture: go on from one that is known from elsewhere, of the same scene.
+    /// False: nothing is known of it.
+    [[nodiscard]] bool recall(const KnownPicture& known, WalkAmbient use, const StopFlag& stop) {
+        begin(known.width, known.height, use);
+        return frames_.recall(known, stop);
+    }
     /// Whether next() also looks around where the view rests, between one better picture and the
     /// next: an eye that turns then sees what is known.
     void look_around(bool does) { looks_around_ = does; }

@@ -25,8 +25,8 @@ inline constexpr int wire::kEnumerators<ChangeOrder::Step> = 3;
 LIGHTWALK_FIELDS(PictureJob, m.job, m.area, m.alignment, m.keep, m.payload, m.known, m.log)
 LIGHTWALK_FIELDS(CloudRules, m.frame, m.empty, m.tightness)
 LIGHTWALK_FIELDS(FrameOrder, m.number, m.width, m.height, m.rules, m.payload, m.budget,
-                 m.most_points, m.rests, m.leaves, m.sample, m.refined, m.aside, m.tells_origins,
-                 m.mixture, m.apart)
+                 m.most_points, m.rests, m.leaves, m.sample, m.refined, m.known, m.aside,
+                 m.tells_origins, m.mixture, m.apart)
 LIGHTWALK_FIELDS(ChangeOrder, m.number, m.step, m.payload, m.shown)
 LIGHTWALK_FIELDS(Announcement, m.job)
 LIGHTWALK_FIELDS(FinishedWork, m.payload, m.job, m.count, m.seconds, m.late)

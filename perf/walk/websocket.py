@@ -94,3 +94,13 @@ class Frame:
         self.eye = struct.unpack_from("<ddd", message, 24)
         self.whole, self.at_rest, self.finished, self.denoised = (bool(flags & bit) for bit in (1, 2, 4, 8))
         self.bytes = len(message)
+        self.message = message
+
+    def parts(self):
+        """The bytes of its pieces, by (codec, x, y, width, height)."""
+        found, at = {}, 48
+        for _ in range(self.pieces):
+            *place, codec, size = struct.unpack_from("<HHHHB3xI", self.message, at)
+            found[codec, *place] = self.message[at + 16:at + 16 + size]
+            at += 16 + size
+        return found

@@ -204,5 +204,9 @@ TEST_CASE("mutated files of layers are read or refused") {
     endure(kFuzzTargets[14]);
     endure(kFuzzTargets[14], overwrite);
 }
+TEST_CASE("mutated frames of a walk are read or refused") {
+    endure(kFuzzTargets[15]);
+    endure(kFuzzTargets[15], overwrite);
+}
 
 }  // namespace lightwalk::test

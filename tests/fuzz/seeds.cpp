@@ -6,6 +6,7 @@
 #include "core/bsdf/bsdf.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
+#include "io/net/walk_frame.h"
 #include "io/picture/encode_picture.h"
 #include "io/picture/image_encoder.h"
 #include "io/picture/picture.h"
@@ -274,6 +275,16 @@ std::string small_layers() {
     return encode_exr(5, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}, row, {{"LIGHT_GROUP= c"}});
 }
 
+std::string small_frame() {
+    WalkFrameHeader header;
+    header.width = 30;
+    header.height = 20;
+    return encode_walk_frame(
+        header, std::vector<WalkFramePiece>{{0, 0, 16, 20, PieceCodec::jpeg, "some bytes"},
+                                            {16, 0, 14, 20, PieceCodec::png, "others"},
+                                            {0, 0, 30, 20, PieceCodec::depth, ""}});
+}
+
 }  // namespace
 
 std::span<const std::string> seeds_of(FuzzTarget target) {
@@ -310,6 +321,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
                                                  small_tga(), small_bmp(),  small_webp(),
                                                  lossy_webp()};
     if (target == read_image) return images;
+    static const std::vector<std::string> frames{small_frame()};
+    if (target == read_walk_frame) return frames;
     static const std::vector<std::string> layers{small_layers()};
     if (target == read_layers) return layers;
     if (target == read_frozen || target == read_resealed) return frozen;

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "io/formats/decode.h"
 #include "io/generators/luminaire_scene.h"
 #include "io/gltf/gltf_material.h"
+#include "io/net/walk_frame.h"
 #include "io/net/walk_request.h"
 #include "io/photometry/eulumdat.h"
 #include "io/photometry/ies_file.h"
@@ -249,6 +251,13 @@ bool read_walk_request(std::string_view bytes) {
         const WalkRequest request = parse_walk_request(bytes);
         if (const auto* view = std::get_if<ViewRequest>(&request)) (void)Camera(view->view);
     });
+}
+
+bool read_walk_frame(std::string_view bytes) {
+    const auto frame = parse_walk_frame(bytes);
+    if (frame && encode_walk_frame(frame->header, frame->pieces).size() != bytes.size())
+        throw std::logic_error("a frame's pieces are not all of it");
+    return frame.has_value();
 }
 
 bool read_frozen(std::string_view bytes) {

@@ -19,6 +19,7 @@ bool read_picture(std::string_view bytes);        ///< as a pattern and as a pic
 bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
 bool read_bsdf_file(std::string_view bytes);      ///< decode, look up, add up and sample
 bool read_walk_request(std::string_view bytes);   ///< a browser's message
+bool read_walk_frame(std::string_view bytes);     ///< a run's frame
 bool read_rad_file(std::string_view bytes);       ///< variables, views and options
 bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, compile, trace
 bool read_resealed(std::string_view bytes);       ///< a frozen scene whose digests are made right
@@ -40,6 +41,7 @@ inline constexpr NamedTarget kFuzzTargets[] = {
     {"picture", read_picture},  {"data", read_data_file},      {"request", read_walk_request},
     {"frozen", read_frozen},    {"resealed", read_resealed},   {"bsdf", read_bsdf_file},
     {"rad", read_rad_file},     {"luminaire", read_luminaire}, {"wavefront", read_wavefront},
-    {"gltf", read_gltf_file},   {"image", read_image},         {"layers", read_layers}};
+    {"gltf", read_gltf_file},   {"image", read_image},         {"layers", read_layers},
+    {"frame", read_walk_frame}};
 
 }  // namespace lightwalk::test

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/net/walk_frame.h"
 #include "tests/io/net/web_client.h"
 
 namespace lightwalk::test {
@@ -48,6 +49,13 @@ class FakeRun final : public WebHandler {
         news_.notify_all();
     }
 
+    /// A frame for all that have greeted it.
+    void show(const std::string& frame) {
+        const std::lock_guard lock(mutex_);
+        for (const ClientId client : guests_)
+            server_.send_binary(client, std::make_shared<const std::string>(frame));
+    }
+
     void opened(ClientId /*client*/) override {}
     void closed(ClientId /*client*/) override {}
     void message(ClientId client, std::string_view text) override {
@@ -58,8 +66,10 @@ class FakeRun final : public WebHandler {
         }
         if (text.find("hello") == std::string_view::npos)
             return server_.send_text(client, "said " + std::string(text));
+        const std::lock_guard lock(mutex_);
         server_.send_text(client, std::string(R"({"type":"welcome","driver":)") +
-                                      (greeted_++ == 0 ? "true}" : "false}"));
+                                      (guests_.empty() ? "true}" : "false}"));
+        guests_.push_back(client);
     }
     void save(const std::string& path, WebReply reply) override {
         reply({200, "image/vnd.radiance", "of " + path, "picture.hdr"});
@@ -69,7 +79,7 @@ class FakeRun final : public WebHandler {
     std::mutex mutex_;
     std::condition_variable news_;
     bool goes_on_ = false;
-    int greeted_ = 0;
+    std::vector<ClientId> guests_;
     WebServer server_;
     std::thread thread_;
 };
@@ -133,6 +143,41 @@ TEST_CASE("head: pages stay connected while runs come and go, and who drove driv
     CHECK(is_welcomed(newcomer, false));
     REQUIRE(first.send("look"));
     CHECK(first.receive() == "said look");
+}
+
+TEST_CASE("head: who comes while there is no run sees what was drawn last") {
+    TestedHead tested;
+    WebClient page(tested.port());
+    REQUIRE(page.send(hello('a')));
+    auto run = std::make_unique<FakeRun>();
+    tested.begin(*run);
+    REQUIRE(is_welcomed(page, true));
+    WalkFrameHeader header;
+    header.width = header.height = 8;
+    header.whole = true;
+    const std::vector<WalkFramePiece> pieces{{0, 0, 8, 8, PieceCodec::jpeg, "a picture"}};
+    const std::string frame = encode_walk_frame(header, pieces);
+    run->show(frame);
+    REQUIRE(page.receive() == frame);
+    tested.head.end_run("rank 1 was killed");
+    run.reset();
+    CHECK(page.receive() == R"({"text":"rank 1 was killed","type":"interrupted"})");
+    const char* const why = R"({"share":0.0,"text":"rank 1 was killed","type":"loading"})";
+    WebClient newcomer(tested.port()), beside(tested.port());
+    REQUIRE(newcomer.send(hello('b')));
+    CHECK(newcomer.receive() == frame);
+    CHECK(newcomer.binary());
+    CHECK(newcomer.receive() == why);
+    REQUIRE(beside.send(R"({"type":"hello","session":"aaaaaaaaaaaaaaaa","beside":true})"));
+    CHECK(beside.receive() == why);
+    tested.head.end_run("no ranks can be started");
+    CHECK(newcomer.receive() ==
+          R"({"share":0.0,"text":"no ranks can be started","type":"loading"})");
+    CHECK(page.receive() == R"({"text":"no ranks can be started","type":"interrupted"})");
+    const FakeRun next;
+    tested.begin(next);
+    CHECK(is_welcomed(page, true));
+    CHECK(is_welcomed(newcomer, false));
 }
 
 TEST_CASE("head: who does not speak the protocol never reaches the run") {

@@ -25,7 +25,7 @@ import { FakeBeside } from "./fake_beside.mjs";
 import { isolux_messages } from "./fake_isolux.mjs";
 import { edited_message, material_message } from "./fake_materials.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
-import { kEyeHeight, kFollowed, kLoaded, kViews } from "./fake_told.mjs";
+import { kEyeHeight, kFollowed, kLoaded, kLost, kViews } from "./fake_told.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -48,6 +48,7 @@ const kTypes = {
     ".css": "text/css",
     ".svg": "image/svg+xml",
 };
+
 // The walk --------------------------------------------------------------------------------------
 
 let display = {
@@ -69,6 +70,7 @@ let spoiled = null, // what is wrong with edited files
     brightness = 1; // of the planes that are asked about: a scene that is read again is twice as bright
 let wish = null,
     version = 0; // what is to be drawn, and how often it has changed
+let lost = null; // what was drawn last, while nobody draws: {wish, view}
 const clients = new Map(); // socket -> {id, drawn, strip, busy, frame, session}
 const places = new Map(); // by session: where a client stood
 let driver = null,
@@ -142,6 +144,7 @@ function answer(socket, message) {
             }
             client.depth = message.depth === true;
             client.luminance = message.luminance === true;
+            if (lost) return come_meanwhile(socket, client, message.session);
             greet(socket, client, message.session);
         },
         ack: () => (client.busy = false),
@@ -331,6 +334,19 @@ function next_frame(socket, client) {
     socket.send(frame_bytes(++client.frame, wish, view.position, flags, pieces, display));
 }
 
+/** Somebody comes while nobody draws: what was drawn last, and why it goes no further. */
+function come_meanwhile(socket, client, session) {
+    client.session = session;
+    const { wish: last, view } = lost;
+    tell(socket, { ...display, type: "display" });
+    tell(socket, { type: "view", view, seen: last.seen });
+    const pieces = coarse_pieces(jpeg, view, last, display);
+    if (client.depth) pieces.push(depth_piece(view, last));
+    if (client.luminance) pieces.push(luminance_piece(jpeg, view, last, display));
+    socket.send(frame_bytes(4321, last, view.position, 7, pieces, display));
+    tell(socket, { type: "loading", text: kLost, share: 0 });
+}
+
 const beside = new FakeBeside(jpeg, kLoaded, edited_message);
 setInterval(() => {
     [...clients].forEach(([socket, client]) => next_frame(socket, client));
@@ -379,19 +395,19 @@ const pranks = {
     alone: () => tell_all({ ...kLoaded, beside: { refused: "many processes draw this walk" } }),
     drop_beside: () => beside.socket?.terminate(),
     interrupt: () => {
+        lost = wish && { wish, view: present_view() };
         lights = { type: "lights", levels: [] };
         time = { type: "time", time: null };
         [edited, wish, probes] = [null, null, []];
-        tell_all({
-            type: "interrupted",
-            text: "rank 2 was killed: the walk begins anew with 4 ranks",
-        });
+        tell_all({ type: "interrupted", text: kLost });
     },
-    resume: () =>
+    resume: () => {
+        lost = null;
         clients.forEach((client, socket) => {
             Object.assign(client, { drawn: -1, strip: 0, busy: false, frame: 0 });
             greet(socket, client, client.session);
-        }),
+        });
+    },
     edit: () =>
         tell_all({ ...kFollowed, files: ["room.rad"], materials: 2, surfaces: 1, kept: 0.8 }),
     spoil: () =>

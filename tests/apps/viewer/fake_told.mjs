@@ -1,5 +1,6 @@
 // What the fake server says of its scene.
 export const kEyeHeight = 1.6;
+export const kLost = "rank 2 was killed: the walk begins anew with 4 ranks";
 
 const view_at = (position, direction, horizontal = 70) => ({
     type: "v",

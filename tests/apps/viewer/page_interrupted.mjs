@@ -4,6 +4,27 @@ import { gone, hold, shown, until, value } from "./page_helpers.mjs";
 
 const kSaid = "Rank 2 was killed: the walk begins anew with 4 ranks";
 
+/** Who opens the page while nobody draws sees what was drawn last, under the reason. */
+async function come_meanwhile(page, address) {
+    const other = await page.context().browser().newPage();
+    await other.goto(address);
+    await until(other, () => window.lightwalk.frames > 0);
+    await until(
+        other,
+        (said) => document.querySelector("#cover-text").textContent === said,
+        kSaid.replace("Rank", "rank"),
+    );
+    assert.ok(!(await other.evaluate(() => document.querySelector("#cover").matches(".gone"))));
+    const colours = await other.evaluate(() => {
+        const { width, height } = document.querySelector("#picture");
+        const context = document.querySelector("#picture").getContext("2d");
+        return new Set(new Uint32Array(context.getImageData(0, 0, width, height).data.buffer)).size;
+    });
+    assert.ok(colours > 100, `${colours} colours`);
+    assert.equal(await value(other, "ready"), false);
+    await other.close();
+}
+
 async function dim_lamp(page, percent) {
     const place = "#lamps li:nth-child(2) .percent";
     await page.mouse.move(300, 300);
@@ -31,6 +52,7 @@ export const interruption_steps = (address, prank) => ({
         assert.equal(await value(page, "view_id"), number); // nobody would draw it
         await page.keyboard.press("a", { delay: 100 });
         assert.ok(await value(page, "connected"));
+        await come_meanwhile(page, address);
         await prank("resume");
         await shown(page);
         await page.waitForSelector("#cover.gone", { state: "attached" });

@@ -61,3 +61,45 @@ TEST_CASE("walk frame: pieces follow the header, each with its place, codec, len
     const std::string third = bytes_of({0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     CHECK(frame.substr(48) == first + second + third);
 }
+
+TEST_CASE("walk frame: a message taken apart makes the same message again") {
+    WalkFrameHeader header;
+    header.frame = 0xfedcba98;
+    header.view = 77;
+    header.width = 300;
+    header.height = 200;
+    header.at_rest = header.denoised = true;
+    header.display = 200;
+    header.exposure = 0.15625f;
+    header.eye = {1, -2, 0.1};
+    const std::vector<WalkFramePiece> pieces{{0, 0, 160, 120, PieceCodec::jpeg, "abc"},
+                                             {160, 0, 140, 200, PieceCodec::png, ""},
+                                             {0, 0, 300, 200, PieceCodec::luminance, "defg"}};
+    const std::string message = encode_walk_frame(header, pieces);
+    const auto parts = parse_walk_frame(message);
+    REQUIRE(parts);
+    CHECK(parts->header.view == 77);
+    CHECK(parts->header.eye.z == 0.1);
+    REQUIRE(parts->pieces.size() == 3);
+    CHECK(parts->pieces[2].bytes == "defg");
+    CHECK(encode_walk_frame(parts->header, parts->pieces) == message);
+}
+
+TEST_CASE("walk frame: what is no frame is none") {
+    WalkFrameHeader header;
+    header.width = 20;
+    header.height = 10;
+    const auto frame = [&](WalkFramePiece piece) {
+        return encode_walk_frame(header, std::vector<WalkFramePiece>{piece});
+    };
+    const std::string good = frame({5, 5, 15, 5, PieceCodec::jpeg, "abc"});
+    REQUIRE(parse_walk_frame(good));
+    for (std::size_t size = 0; size < good.size(); ++size)
+        CHECK_FALSE(parse_walk_frame(std::string_view(good).substr(0, size)));
+    CHECK_FALSE(parse_walk_frame(good + 'x'));
+    CHECK_FALSE(parse_walk_frame('X' + good.substr(1)));
+    CHECK_FALSE(parse_walk_frame(frame({6, 5, 15, 5, PieceCodec::jpeg, "abc"})));
+    CHECK_FALSE(parse_walk_frame(frame({5, 6, 15, 5, PieceCodec::jpeg, "abc"})));
+    for (const int codec : {0, 5})
+        CHECK_FALSE(parse_walk_frame(frame({0, 0, 1, 1, static_cast<PieceCodec>(codec), "abc"})));
+}
