@@ -120,7 +120,7 @@ struct KnownTile {
 
 void recall_tile(const KnownTile& tile, PixelCaster& caster, double tolerance, int worker,
                  std::vector<PixelPoints>& points) {
-    std::array<PixelVisibility, kTileSide * kTileSide> seen;
+    std::array<PixelVisibility, std::size_t{kTileSide} * kTileSide> seen;
     caster.probe(tile.places, {}, std::span(seen).first(tile.places.size()), worker);
     for (std::size_t i = 0; i < tile.places.size(); ++i) {
         const PrimaryVisibility& ahead = seen[i].ahead;
