@@ -33,7 +33,7 @@ import { UnderPointer } from "./under_pointer.js";
 import { ViewSender } from "./view_sender.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
-import { quantity, sentence } from "./words.js";
+import { lost_words, quantity, sentence } from "./words.js";
 
 const picture = by_id("picture");
 
@@ -186,19 +186,8 @@ const plan = new PlanPanel({
     may_drive: () => session.driving && navigator.view !== null,
 });
 const commands = start_commands({
-    navigator,
-    session,
-    light,
-    views,
-    path,
-    measuring,
-    isolux,
-    glare,
-    lamps,
-    materials,
-    time,
-    comparison,
-    picture,
+    ...{ navigator, session, light, views, path, measuring, isolux, glare },
+    ...{ lamps, materials, time, comparison, picture },
     painted: () => comparison.painted(draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
     scene: () => scene,
@@ -375,10 +364,7 @@ function scene_failed({ messages }) {
 
 function lost(reason, wait) {
     forget_walk("the connection is lost");
-    const words =
-        reason ||
-        (greeted ? "The connection to the server is lost." : "No answer from the server.");
-    cover(`${words} Trying again${wait >= 1000 ? ` in ${Math.round(wait / 1000)} s` : ""}…`);
+    cover(lost_words(reason, greeted, wait));
 }
 
 /** Those who draw the walk are lost. The connection stays, and who draws it anew says `welcome`. */
@@ -422,17 +408,13 @@ function server_state(message) {
 
 function drawn(frame, depth, told) {
     ++counters.frames;
-    Object.assign(counters, {
-        exposure: frame.exposure,
-        at_rest: frame.at_rest,
-        final: frame.final,
-        denoised: frame.denoised,
-    });
+    const { exposure, at_rest, final, denoised } = frame;
+    Object.assign(counters, { exposure, at_rest, final, denoised });
     const sent = session.drawn(frame, told);
     if (sent?.walk && sent.epoch === navigator.epoch) navigator.take_height(frame.eye);
     camera.take(session.driving && !sent ? null : session.frame_view, depth);
-    light.note_exposure(frame.exposure);
-    light.denoised = frame.denoised;
+    light.note_exposure(exposure);
+    light.denoised = denoised;
     if (awaiting_picture && session.connection.connected) {
         awaiting_picture = false;
         counters.ready = true;

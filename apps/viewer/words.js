@@ -36,6 +36,13 @@ export const percent = (share) => `${Math.round(share * 100)}${kThin}%`;
 /** A text that the server begins with a small letter. */
 export const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** What the page waits for without a connection. reason: what the server said, if anything; greeted: whether it has ever answered; wait [ms]. */
+export function lost_words(reason, greeted, wait) {
+    const unsaid = greeted ? "The connection to the server is lost." : "No answer from the server.";
+    const when = wait >= 1000 ? ` in ${Math.round(wait / 1000)} s` : "";
+    return `${reason || unsaid} Trying again${when}…`;
+}
+
 /** A rate of rays: 2.4 M, 310 k. */
 export function many(value) {
     if (!Number.isFinite(value)) return "–";

@@ -14,12 +14,17 @@
 namespace lightwalk {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // Samples of each kind have random numbers of their own.
 constexpr std::uint32_t kOfPixels = 0, kOfPickedPoints = 1, kOfMeans = 2, kOfPins = 3,
                         kOfSights = 4;
-constexpr int kPixelRays = 4;      // along each side of a pixel, of each sample of it
-constexpr int kPixelSamples = 8;   // they are apart in nothing but the chance in their light
-constexpr int kPointSamples = 16;  // of a picked point
+constexpr int kPixelRays = 4;     // along each side of a pixel, of each sample of it
+constexpr int kPixelSamples = 8;  // they are apart in nothing but the chance in their light
+// Of a picked point: as many as its time has room for. Indirect light is skewed where a small place
+// is bright, by a lamp or a fire: the spread of 16 samples mostly misses what is rare and large.
+constexpr int kFewestPointSamples = 16, kPointSamples = 128;
+constexpr std::chrono::milliseconds kPointTime(30);
 constexpr int kFirstSamples = 4;   // of a pin, before it is told
 constexpr int kPinSamples = 1024;  // of a pin in the end
 
@@ -89,9 +94,11 @@ PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
     reply.position = hit.position;
     reply.normal = dot(hit.normal, middle->direction) > 0 ? -hit.normal : hit.normal;
     LightBatches falling;
-    for (std::uint32_t i = 0; i < kPointSamples; ++i)
+    const Clock::time_point end = Clock::now() + kPointTime;
+    while (falling.count() < kFewestPointSamples ||
+           (falling.count() < kPointSamples && Clock::now() < end))
         falling.add(sampler().irradiance(reply.position, reply.normal,
-                                         sampler().random(kOfPickedPoints, i)));
+                                         random_of(kOfPickedPoints, falling)));
     reply.illuminance = shown(falling);
     const std::optional<ModifierId> material = scene.material_of(hit.modifier);
     reply.material = material ? scene.modifier(*material).name : "void";
@@ -142,7 +149,6 @@ MeanReply WalkAnswers::mean(const MeanRequest& request, const LivePicture& pictu
 
 ProbesReply WalkAnswers::measure(std::span<const ProbePlace> probes, const Vec3& eye,
                                  double seconds) {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                      std::chrono::duration<double>(seconds));
     std::map<std::uint32_t, Pin> kept;

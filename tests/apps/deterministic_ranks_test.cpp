@@ -39,7 +39,7 @@ TEST_CASE("render on ranks: --deterministic gives the bytes of one process with 
     };
     const std::string alone = render("one.hdr", {"-n", "1"}, {});
     CHECK(render("two.hdr", {"-n", "2"}, {}) == alone);
-    for (const Split& split : kSplits) {
+    for (const Split& split : kRoundSplits) {
         CAPTURE(split.ranks);
         CHECK(render("ranks.hdr", split.options, *mpirun(split.ranks, split.mpi)) == alone);
     }
@@ -65,7 +65,7 @@ TEST_CASE(
     const std::string values = read_whole(folder.path("one.amb"));
     const std::string picture = pixel_bytes(read_whole(folder.path("one.hdr")));
     CHECK(values.size() > 10000);
-    for (const Split& split : kSplits) {
+    for (const Split& split : kRoundSplits) {
         CAPTURE(split.ranks);
         std::filesystem::remove(folder.path("ranks.amb"));
         const ProgramResult result =

@@ -66,6 +66,12 @@ inline const std::vector<Split> kSplits{
     {2, {"--variant", "hybrid", "-n", "1"}, {}},
     {2, {"-n", "2"}, {}},
     {4, {"-n", "2", "--masters", "2"}, {}}};
+/// Of a run in rounds, each of which all ranks end together.
+#if defined(__SANITIZE_ADDRESS__)
+inline const std::vector<Split> kRoundSplits{kSplits[0], kSplits[3], kSplits[5], kSplits[7]};
+#else
+inline const std::vector<Split>& kRoundSplits = kSplits;
+#endif
 
 // So long that a run can be killed before it ends: under AddressSanitizer a quarter of the pixels
 // takes longer than all of them elsewhere.

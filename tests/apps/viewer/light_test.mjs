@@ -12,6 +12,7 @@ import { measurement_table } from "../../../apps/viewer/table.js";
 import {
     glare_word,
     glare_words,
+    lost_words,
     known,
     phase_words,
     pixel_shares,
@@ -114,6 +115,12 @@ test("quantities have three digits that matter", () => {
         [0.05, 30, 10000, 2.5].map((x) => round_number(x).replaceAll("\u202f", " ")),
         ["0.05", "30", "10 000", "2.5"],
     );
+});
+
+test("a lost connection is told, why, and when it is tried again", () => {
+    assert.equal(lost_words("", true, 999), "The connection to the server is lost. Trying again…");
+    assert.equal(lost_words("", false, 4400), "No answer from the server. Trying again in 4 s…");
+    assert.equal(lost_words("It ends.", true, 1000), "It ends. Trying again in 1 s…");
 });
 
 test("how well a value is known is rounded up, and nothing is said where there is nothing to say", () => {
