@@ -58,7 +58,7 @@ class WebSocket:
 
     def receive(self):
         """The next message: the bytes of a binary one, or the value of a JSON text."""
-        whole = b""
+        whole, kind = b"", 0
         while True:
             first, second = self._take(2)
             size = second & 127

@@ -2,7 +2,7 @@
 """`lightwalk launch` by Slurm's srun, in place of which there is a script that starts the ranks by mpirun: srun_test.py PROGRAM
 
 A picture is the one that the program draws alone, ranks read from standard input what rank 0 should, a host that does not answer is left out, and a walk survives a rank that is killed."""
-import json, os, pathlib, shutil, signal, socket, subprocess, sys, tempfile
+import json, os, pathlib, shutil, signal, subprocess, sys, tempfile
 
 from launched_walk_test import free_port, ranks_of, soon, visit
 from scripted_walk import PATIENCE, ROOM, WORDS
@@ -10,7 +10,7 @@ from scripted_walk import PATIENCE, ROOM, WORDS
 NEEDED = ["--mpi=pmix", "--kill-on-bad-exit=1", "--unbuffered", "--input=0", "--quit-on-interrupt", "--export=ALL"]
 MISSING = "nowhere.invalid"  # no name (RFC 6761)
 SRUN = """#!/usr/bin/python3
-import json, os, pathlib, re, signal, socket, subprocess, sys
+import json, os, pathlib, re, signal, subprocess, sys
 words = sys.argv[1:]
 with open(os.environ["FAKE_SRUN"] + "/calls", "a") as file:
     print(json.dumps(words), file=file)
