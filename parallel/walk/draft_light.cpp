@@ -23,6 +23,13 @@ bool is_coarse(const PixelPlace& place) {
     return place.x % kCoarse == 0 && place.y % kCoarse == 0;
 }
 
+/// @param added     to a pixel's light, in place of the constant's
+/// @param constant  what this adds to the light that is there
+float with_light(float light, float added, float constant) {
+    const float sum = light + added;
+    return added < 0 && constant > 0 ? std::max(sum, light * (1 + added / constant)) : sum;
+}
+
 /// For its lifetime rays use ambient values that are known, and note where one is missing.
 class OnlyKnownValues {
   public:
@@ -65,6 +72,7 @@ bool DraftLight::aim(const View& view, const FrameOptions& options) {
     const std::size_t pixels = options_.whole().pixels();
     known_.assign(pixels, 0);
     added_.assign(pixels, {});
+    constant_.assign(group_count_ == 0 ? pixels : 0, {});
     groups_.assign(pixels * group_count_, {});
     stage_ = Stage::filling;
     to_fill_.places.clear();
@@ -164,12 +172,15 @@ class DraftLight::Difference {
             known.begin_ray();
             none.begin_ray();
             const std::size_t at = numbers_[i], groups = draft_.group_count_;
-            const std::span<Rgb> parts = std::span(draft_.groups_).subspan(at * groups, groups);
-            std::ranges::fill(parts, Rgb{});
-            const Rgb all = shade(draft_.indirect_, i, with_, parts, 1);
-            draft_.added_[at] = all - shade(draft_.direct_, i, without_, parts, -1);
-            if (groups > 0) draft_.added_[at] = draft_.mixture_.sum(parts);
+            parts_.assign(groups, {});
+            const Rgb all = shade(draft_.indirect_, i, with_, parts_, 1);
+            const Rgb constant = shade(draft_.direct_, i, without_, parts_, -1);
             draft_.known_[at] = known.lacked_some() ? 0 : 1;
+            if (known.lacked_some()) continue;  // what is guessed is nearer
+            draft_.added_[at] = groups > 0 ? draft_.mixture_.sum(parts_) : all - constant;
+            if (groups == 0) draft_.constant_[at] = constant;
+            std::ranges::copy(parts_,
+                              draft_.groups_.begin() + static_cast<std::ptrdiff_t>(at * groups));
         }
     }
 
@@ -200,6 +211,7 @@ class DraftLight::Difference {
     std::vector<Hit> hits_;
     std::vector<PixelRay> pixels_;
     std::vector<std::size_t> numbers_;
+    std::vector<Rgb> parts_;
 };
 
 /// Interpolate the light of the pixels that are left. False: there was no time for all.
@@ -233,6 +245,8 @@ void DraftLight::guess_rest(Executor& executor) {
     if (std::ranges::find(known_, std::uint8_t{0}) == known_.end()) return mix(mixture_);
     const ExecutorTaskRunner task_runner(executor);
     fill_gaps(options_.width, options_.height, added_, known_, task_runner);
+    if (group_count_ == 0)
+        fill_gaps(options_.width, options_.height, constant_, known_, task_runner);
     std::vector<Rgb> of_group(group_count_ > 0 ? added_.size() : 0);
     for (std::size_t g = 0; g < group_count_; ++g) {
         for (std::size_t i = 0; i < of_group.size(); ++i)
@@ -242,6 +256,21 @@ void DraftLight::guess_rest(Executor& executor) {
             groups_[i * group_count_ + g] = of_group[i];
     }
     mix(mixture_);
+}
+
+void DraftLight::add_to(std::span<Rgb> radiance) const {
+    const auto width = static_cast<std::size_t>(options_.width);
+    for (std::size_t i = 0; i < added_.size(); ++i) {
+        const std::size_t row = added_.size() / width - 1 - i / width;
+        Rgb& pixel = radiance[row * width + i % width];
+        if (constant_.empty()) {
+            pixel += added_[i];
+            continue;
+        }
+        const Rgb &more = added_[i], &constant = constant_[i];
+        pixel = {with_light(pixel.r, more.r, constant.r), with_light(pixel.g, more.g, constant.g),
+                 with_light(pixel.b, more.b, constant.b)};
+    }
 }
 
 void DraftLight::mix(const LightMixture& mixture) {

@@ -51,6 +51,11 @@ class DraftLight {
     /// What indirect light adds to the radiance that `direct` finds, where the constant -av stands
     /// for it: less than 0 where there is less light than that [W/(m² sr)].
     [[nodiscard]] std::span<const Rgb> added() const { return added_; }
+    /// Adds it to pixels that lack it, row by row from the top. Where light groups are not kept no
+    /// pixel becomes darker than if all that it shows were the constant's light: what is guessed of
+    /// a pixel may be of a darker surface than the one that this is calculated for, and would be
+    /// black where there is less light than the constant.
+    void add_to(std::span<Rgb> radiance) const;
     /// Of that, what each light group adds, by pixel, then group; empty: not kept.
     [[nodiscard]] std::span<const Rgb> groups() const { return groups_; }
     /// Number of rays that the last step took.
@@ -87,6 +92,7 @@ class DraftLight {
     std::vector<std::uint32_t> to_look_;  ///< pixels by number
     std::vector<std::uint8_t> known_;     ///< by pixel
     std::vector<Rgb> added_, groups_;
+    std::vector<Rgb> constant_;  ///< what the constant adds; empty where light groups are kept
     std::uint64_t rays_ = 0;
 };
 

@@ -154,7 +154,7 @@ void LiveWalk::add_draft() {
     picture_.inferred = draft_ != nullptr ? 1 : 0;
     if (draft_ == nullptr) return;
     picture_.radiance = undrafted_;
-    add_all(turned_rows(draft_->added(), width_), picture_.radiance);
+    draft_->add_to(picture_.radiance);
 }
 
 /// What is traced from here on takes the place of the draft.
