@@ -10,7 +10,7 @@ from scripted_walk import PATIENCE, ROOM, WORDS
 NEEDED = ["--mpi=pmix", "--kill-on-bad-exit=1", "--unbuffered", "--input=0", "--quit-on-interrupt", "--export=ALL"]
 MISSING = "nowhere.invalid"  # no name (RFC 6761)
 SRUN = """#!/usr/bin/python3
-import json, os, pathlib, re, signal, subprocess, sys
+import json, os, pathlib, re, signal, socket, subprocess, sys
 words = sys.argv[1:]
 with open(os.environ["FAKE_SRUN"] + "/calls", "a") as file:
     print(json.dumps(words), file=file)
