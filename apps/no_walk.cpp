@@ -38,4 +38,8 @@ std::chrono::duration<double> WalkHead::quiet() const {
     return {};
 }
 
+bool WalkHead::failed() const {
+    return false;
+}
+
 }  // namespace lightwalk
