@@ -308,13 +308,7 @@ void RankLink::dismiss() {
 RankReport RankLink::report() const {
     RankReport report;
     report.host = host_;
-    for (int row = 0; row < timeline_.rows(); ++row) {
-        report.rows.push_back(timeline_.row(row));
-        for (Timeline::Span& span : report.rows.back().spans) {
-            span.begin -= agreed_;
-            span.end -= agreed_;
-        }
-    }
+    report.rows = timeline_.rows_since(agreed_);
     const std::lock_guard lock(mutex_);
     report.counts = counts_;
     return report;

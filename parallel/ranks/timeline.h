@@ -54,6 +54,18 @@ class Timeline {
         const std::lock_guard lock(r.mutex);
         return r.row;
     }
+    /// All rows, their spans told since a moment [s since the timeline was made].
+    [[nodiscard]] std::vector<Row> rows_since(double moment) const {
+        std::vector<Row> told;
+        for (int number = 0; number < rows(); ++number) {
+            told.push_back(row(number));
+            for (Span& span : told.back().spans) {
+                span.begin -= moment;
+                span.end -= moment;
+            }
+        }
+        return told;
+    }
     [[nodiscard]] double since(Clock::time_point when) const {
         return std::chrono::duration<double>(when - made_).count();
     }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <thread>
+#include <vector>
 
 using namespace lightwalk;
 
@@ -26,6 +27,10 @@ TEST_CASE("a timeline adds up by thread and activity, and keeps spans when asked
             CHECK(row.spans[1].activity == Activity::wait);
             CHECK(row.spans[1].begin == doctest::Approx(timeline.since(zero) + .25));
             CHECK(row.spans[1].end == doctest::Approx(timeline.since(zero) + .3));
+            const std::vector<Timeline::Row> later = timeline.rows_since(timeline.since(zero) + .1);
+            REQUIRE(later.size() == 3);
+            CHECK(later[0].spans[1].begin == doctest::Approx(.15));
+            CHECK(later[0].spans[1].end == doctest::Approx(.2));
         }
         CHECK(timeline.row(1).spans.empty());
         CHECK(timeline.row(2).seconds[static_cast<std::size_t>(Activity::handle)] > 0);
