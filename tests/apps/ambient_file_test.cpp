@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -62,8 +61,7 @@ class Room {
     [[nodiscard]] const std::string& warnings() const { return warnings_; }
     /// Ambient values that the last run computed.
     [[nodiscard]] int computed() const {
-        const std::string text = read_whole(folder_.path("s.json"));
-        return nlohmann::json::parse(text)["ambient"]["computed"].get<int>();
+        return figure(folder_.path("s.json"), "/ambient/computed");
     }
 
   private:

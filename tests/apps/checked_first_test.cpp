@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 #include <sched.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -55,7 +54,7 @@ TEST_CASE("render: as many threads as processors that it may run on") {
         const ProgramResult result = run_program(line({"--stats", stats, scene}), "", launcher);
         CAPTURE(result.err);
         REQUIRE(result.status == 0);
-        return nlohmann::json::parse(read_whole(stats)).at("threads").get<int>();
+        return figure(stats, "/threads");
     };
     CHECK(threads({}) == CPU_COUNT(&allowed));
     CHECK(threads({"taskset", "-c", std::to_string(first)}) == 1);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/one_thread.h"
 #include "tests/tolerance.h"
 
 using namespace lightwalk::test;
@@ -371,7 +372,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("contrib: cached coefficients are those of traced rays, the closer the lower -aa") {
+TEST_CASE("contrib: cached coefficients are those of traced rays, the closer the lower -aa" *
+          about_numbers) {
     const TemporaryFolder folder;
     // The wide ground makes the scene large, so that records may reach far: not through the walls.
     const std::string room = R"(

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/apps/rank_runs.h"
+#include "tests/one_thread.h"
 
 using namespace lightwalk::test;
 using namespace lightwalk::test::rank_runs;
@@ -120,7 +120,7 @@ TEST_CASE("render: a deterministic run that is killed goes on with its rounds, w
         const ProgramResult result = run_program(line(with(more, light)), "", launcher);
         CHECK(result.status == 0);
         CHECK(beside_cut(result.err).empty());
-        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+        return figure(stats, "/ambient/computed");
     };
     const int whole = computed({});
     const std::string expected = pixel_bytes(read_whole(out));
@@ -151,7 +151,8 @@ TEST_CASE("render: a deterministic run that is killed goes on with its rounds, w
     }
 }
 
-TEST_CASE("render: rounds go on where a file keeps their values, which has grown since") {
+TEST_CASE("render: rounds go on where a file keeps their values, which has grown since" *
+          about_numbers) {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string checkpoint = folder.path("blocks"), out = folder.path("out.hdr");
@@ -169,7 +170,7 @@ TEST_CASE("render: rounds go on where a file keeps their values, which has grown
             CHECK(beside_cut(result.err).empty());
         else
             CHECK(result.err.find(said) != std::string::npos);
-        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+        return figure(stats, "/ambient/computed");
     };
     // Values of an earlier run are where all begin.
     REQUIRE(run_program(line(with(light, {"-x", "15", "-y", "10", "-o", out, scene}))).status == 0);
@@ -209,7 +210,7 @@ TEST_CASE("render: rounds go on where a file keeps their values, which has grown
     }
 }
 
-TEST_CASE("render: rounds go on where a file gives them values, and takes none") {
+TEST_CASE("render: rounds go on where a file gives them values, and takes none" * about_numbers) {
     if (geteuid() == 0 && !std::filesystem::exists(without_privilege().front())) {
         MESSAGE("skipped: root may write all files here");
         return;
@@ -236,7 +237,7 @@ TEST_CASE("render: rounds go on where a file gives them values, and takes none")
         const std::string said = beside_cut(result.err);
         CHECK(std::count(said.begin(), said.end(), '\n') == 1);
         CHECK(read_whole(values) == before);
-        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+        return figure(stats, "/ambient/computed");
     };
     const int whole = computed({});
     const std::string expected = pixel_bytes(read_whole(out));
@@ -262,7 +263,8 @@ TEST_CASE("render: rounds go on where a file gives them values, and takes none")
     }
 }
 
-TEST_CASE("render: a deterministic sequence goes on where a file keeps its values") {
+TEST_CASE("render: a deterministic sequence goes on where a file keeps its values" *
+          about_numbers) {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string views =

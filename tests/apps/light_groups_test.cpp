@@ -9,6 +9,7 @@
 
 #include "io/picture/layers.h"
 #include "tests/apps/program.h"
+#include "tests/one_thread.h"
 #include "tests/shared_data.h"
 #include "tests/temporary_folder.h"
 
@@ -356,7 +357,7 @@ TEST_CASE("relight: rooms of lamps of the reference, dimmed") {
                  kDimmedIndirect);
 }
 
-TEST_CASE("relight: the demo scene of an evening and an office of lamps, dimmed") {
+TEST_CASE("relight: the demo scene of an evening and an office of lamps, dimmed" * about_numbers) {
     const TemporaryFolder files;
     DimmedScene scene;
     SUBCASE("demo scene") {

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 namespace lightwalk::test {
@@ -175,6 +176,12 @@ std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std:
 std::string read_whole(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double figure(const std::string& file, const std::string& pointer) {
+    const auto all = nlohmann::json::parse(read_whole(file));
+    const auto& found = all.at(nlohmann::json::json_pointer(pointer));
+    return found.is_number() ? found.get<double>() : static_cast<double>(found.size());
 }
 
 }  // namespace lightwalk::test

@@ -68,7 +68,7 @@ inline const std::vector<Split> kSplits{
     {4, {"-n", "2", "--masters", "2"}, {}}};
 /// Of a run in rounds, each of which all ranks end together.
 #if defined(__SANITIZE_ADDRESS__)
-inline const std::vector<Split> kRoundSplits{kSplits[0], kSplits[3], kSplits[5], kSplits[7]};
+inline const std::vector<Split> kRoundSplits{kSplits[3], kSplits[5]};
 #else
 inline const std::vector<Split>& kRoundSplits = kSplits;
 #endif

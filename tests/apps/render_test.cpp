@@ -14,6 +14,7 @@
 #include "io/ambient/ambient_file.h"
 #include "io/picture/picture.h"
 #include "tests/apps/program.h"
+#include "tests/one_thread.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
@@ -365,7 +366,8 @@ TEST_CASE("render: -af keeps values for the next run, and uses those of other op
     CHECK(run_program(line({"-ab", "1", "-af", folder.path("bad.amb"), scene})).status == 1);
 }
 
-TEST_CASE("render: killed at twenty moments, every whole ambient value is there for the next run") {
+TEST_CASE("render: killed at twenty moments, every whole ambient value is there for the next run" *
+          about_numbers) {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom), file = folder.path("room.amb");
     const auto words = [&](const std::string& picture) {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -125,7 +124,7 @@ TEST_CASE("trace on ranks: header lines and the sum of all ranks' rays are those
     const std::string input = as_text(some_rays(3000));
     const std::vector<std::string> words{"trace", "-n", "1", "--stats", stats, scene};
     const auto primary = [&] {
-        return nlohmann::json::parse(read_whole(stats))["rays"]["primary"].get<int>();
+        return figure(stats, "/rays/primary");
     };
     const ProgramResult alone = run_program(words, input);
     CHECK(alone.out.starts_with("#?RADIANCE"));
@@ -134,7 +133,7 @@ TEST_CASE("trace on ranks: header lines and the sum of all ranks' rays are those
     const ProgramResult shared = run_program(words, input, *mpirun(3));
     CHECK(without_dates(shared.out) == without_dates(alone.out));
     CHECK(primary() == rays);
-    CHECK(nlohmann::json::parse(read_whole(stats))["ranks"] == 3);
+    CHECK(figure(stats, "/ranks") == 3);
 }
 
 TEST_CASE("trace on ranks: with indirect light every ray is answered") {

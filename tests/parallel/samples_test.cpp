@@ -15,7 +15,7 @@
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
-using lightwalk::test::one_thread;
+using lightwalk::test::about_numbers;
 using lightwalk::test::room_view;
 using lightwalk::test::Silence;
 using lightwalk::test::TestScene;
@@ -114,7 +114,7 @@ TEST_CASE("with several samples the picture does not depend on executor, threads
     }
 }
 
-TEST_CASE("samples keep the light: a square's pixels add up to its area" * one_thread) {
+TEST_CASE("samples keep the light: a square's pixels add up to its area" * about_numbers) {
     const TestScene scene(kSquare);
     constexpr int kSize = 24;
     const double pixel = 1.6 / kSize;
@@ -202,7 +202,7 @@ TEST_CASE("a finished picture has no negative radiance, whatever its filter") {
         if (whole[x] > .1) CHECK(cut[x] == whole[x]);
 }
 
-TEST_CASE("16 samples have less than an eighth of the variance of one" * one_thread) {
+TEST_CASE("16 samples have less than an eighth of the variance of one" * about_numbers) {
     const TestScene scene(kSampledRoom, noisy_samples());
     const auto variance = [&](int samples) {
         constexpr int kSeeds = 24;
@@ -223,7 +223,7 @@ TEST_CASE("16 samples have less than an eighth of the variance of one" * one_thr
     CHECK(variance(16) < variance(1) / 8);
 }
 
-TEST_CASE("small sources are found by the samples, and count once" * one_thread) {
+TEST_CASE("small sources are found by the samples, and count once" * about_numbers) {
     // 0.2 x 0.2 pixels of a lamp.
     const TestScene scene(
         "void light lamp 0 0 3 100 100 100\n"
@@ -315,7 +315,8 @@ Seeds over_seeds(const TestScene& scene, const View& view, int samples, bool sha
     return result;
 }
 
-TEST_CASE("shared samples show the same light as pixels' own, with far less noise" * one_thread) {
+TEST_CASE("shared samples show the same light as pixels' own, with far less noise" *
+          about_numbers) {
     RenderOptions options;
     options.source_jitter = 1;
     std::string room;

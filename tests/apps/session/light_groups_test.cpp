@@ -9,6 +9,7 @@
 #include "apps/session/lightwalk/renderer.h"
 #include "core/error.h"
 #include "tests/every_material.h"
+#include "tests/one_thread.h"
 
 using namespace lightwalk;
 
@@ -132,7 +133,8 @@ constexpr double kSumRounding = 1e-5;
 
 }  // namespace
 
-TEST_CASE("the layers of light groups add up to the picture, which is that without them") {
+TEST_CASE("the layers of light groups add up to the picture, which is that without them" *
+          lightwalk::test::about_numbers) {
     RendererOptions options = room_options();
     SUBCASE("direct light, every source tested") {
         options.light.shadow_threshold = 0;

@@ -73,26 +73,42 @@ export function frame_bytes(number, wish, eye, flags, pieces, display) {
     return Buffer.concat(parts);
 }
 
+const kKept = 400; // pieces: some ten megabytes
+const kept = new Map();
+
+/** What `make` made of the same words before, which pages ask for again and again. */
+function once(words, make) {
+    const key = JSON.stringify(words);
+    const piece = kept.get(key) ?? make();
+    kept.delete(key); // the newest ones are last
+    kept.set(key, piece);
+    if (kept.size > kKept) kept.delete(kept.keys().next().value);
+    return piece;
+}
+
 /** The whole picture at once, coarse: one JPEG that the page stretches. */
 export function coarse_pieces(jpeg, view, { width, height }, display) {
+    const painted = () => painted_coarse(jpeg, view, { width, height }, display);
+    return [once(["coarse", view, width, height, display], painted)];
+}
+
+function painted_coarse(jpeg, view, { width, height }, display) {
     const share = Math.min(1, kMoving / width),
         w = Math.max(1, Math.round(width * share)),
         h = Math.max(1, Math.round(height * share));
     const data = paint(view, w, h, 0, h, display);
-    return [
-        {
-            x: 0,
-            y: 0,
-            width,
-            height,
-            codec: 1,
-            bytes: jpeg.encode({ data, width: w, height: h }, 80).data,
-        },
-    ];
+    const { data: bytes } = jpeg.encode({ data, width: w, height: h }, 80);
+    return { x: 0, y: 0, width, height, codec: 1, bytes };
 }
 
 /** One strip in full; the first ones as PNG, so that both codecs are in use. */
 export function strip_piece(jpeg, view, { width, height }, k, display) {
+    return once([k, view, width, height, display], () =>
+        painted_strip(jpeg, view, { width, height }, k, display),
+    );
+}
+
+function painted_strip(jpeg, view, { width, height }, k, display) {
     const from = Math.floor((k * height) / kStrips),
         to = Math.floor(((k + 1) * height) / kStrips);
     const data = paint(view, width, height, from, to, display);
@@ -106,6 +122,10 @@ export function strip_piece(jpeg, view, { width, height }, k, display) {
 
 /** How far away what a picture shows is; the same for each four by four pixels. */
 export function depth_piece(view, { width, height }) {
+    return once(["depth", view, width, height], () => depth_of(view, { width, height }));
+}
+
+function depth_of(view, { width, height }) {
     const kStep = 0.001,
         kCell = 4; // the unit of inverse depth [1/m]; [pixels]
     const columns = Math.ceil(width / kCell);
@@ -121,6 +141,12 @@ export function depth_piece(view, { width, height }) {
 
 /** The luminance of a picture, one value for four by four pixels. */
 export function luminance_piece(jpeg, view, { width, height }, display) {
+    return once(["luminance", view, width, height, display], () =>
+        painted_luminance(jpeg, view, { width, height }, display),
+    );
+}
+
+function painted_luminance(jpeg, view, { width, height }, display) {
     const [w, h] = [Math.ceil(width / 4), Math.ceil(height / 4)];
     const [low, step] = [-2, 0.0625]; // logarithms to the base of 2 [cd/m2]
     const data = Buffer.alloc(4 * w * h, 255);

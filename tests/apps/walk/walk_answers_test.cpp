@@ -9,6 +9,7 @@
 #include "core/math/xyz.h"
 #include "parallel/walk/scene_caster.h"
 #include "tests/core/trace/white_room.h"
+#include "tests/one_thread.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
@@ -39,7 +40,8 @@ View view_of_corner() {
 
 }  // namespace
 
-TEST_CASE("walk answers: the interval of a pin narrows, and holds what long runs find") {
+TEST_CASE("walk answers: the interval of a pin narrows, and holds what long runs find" *
+          about_numbers) {
     TestScene scene(kWhiteRoom, two_bounces());
     WalkAnswers answers(scene.tracer, scene.warnings);
     const ProbesReply first = answers.measure(kTwoPins, kCornerEye, 0);
@@ -110,7 +112,8 @@ TEST_CASE("walk answers: where somebody points luminance and illuminance agree w
           2 * pick.luminance.half_width + .01 * truth);
 }
 
-TEST_CASE("walk answers: a mean holds the truth, also of a picture that is too dark everywhere") {
+TEST_CASE("walk answers: a mean holds the truth, also of a picture that is too dark everywhere" *
+          about_numbers) {
     TestScene scene(kWhiteRoom, two_bounces());
     LivePicture picture;
     picture.width = 20;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/ambient/serial_cache.h"
+#include "tests/one_thread.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
 
@@ -101,7 +102,8 @@ TEST_CASE("deeper ambient values: the second level has an eighth of the first on
     CHECK(scene.context.counters.rays.total() == 1 + 1024 + 121 * deeper);
 }
 
-TEST_CASE("deeper ambient values: light that comes by way of them has the mean of plain sampling") {
+TEST_CASE("deeper ambient values: light that comes by way of them has the mean of plain sampling" *
+          about_numbers) {
     TestScene plain(kRoom, two_bounces(0, 1024, 1));
     const Mean expected = mean_of(1000, [&](int i) {
         return static_cast<double>(plain.trace(kEye, kDown, static_cast<std::uint32_t>(i)).value.g);

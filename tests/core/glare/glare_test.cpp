@@ -9,9 +9,11 @@
 #include "core/glare/dgp.h"
 #include "core/glare/glare_indices.h"
 #include "tests/core/glare/fisheye_picture.h"
+#include "tests/one_thread.h"
 #include "tests/tolerance.h"
 
 using namespace lightwalk;
+using test::about_numbers;
 using test::direction_of;
 using test::disc_picture;
 using test::fisheye_view;
@@ -339,8 +341,8 @@ TEST_CASE("glare: settings that mean nothing are refused") {
     CHECK_THROWS_AS((void)analyse_glare({1, 1, one}, upright), InputError);
 }
 
-TEST_CASE(
-    "glare shares: dgp follows the luminance of a pixel as they say, of a source and beside") {
+TEST_CASE("glare shares: dgp follows the luminance of a pixel as they say, of a source and beside" *
+          about_numbers) {
     constexpr int kSide = 100;
     for (const char type : {'a', 'h'}) {
         CAPTURE(type);

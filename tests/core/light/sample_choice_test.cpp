@@ -7,6 +7,7 @@
 
 #include "core/light/light_sources.h"
 #include "tests/core/light/lamps_over_floor.h"
+#include "tests/one_thread.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
 
@@ -53,7 +54,8 @@ constexpr std::array<std::pair<double, double>, 4> kFloorPlaces{
 
 }  // namespace
 
-TEST_CASE("a few lights bring to the samples of a pixel in the mean what all bring") {
+TEST_CASE("a few lights bring to the samples of a pixel in the mean what all bring" *
+          about_numbers) {
     TestScene all(kLamps, with_lights(0), striped_files());
     for (const int lights : {1, 2, 4}) {
         TestScene few(kLamps, with_lights(lights), striped_files());
@@ -78,7 +80,8 @@ TEST_CASE("a few lights bring to the samples of a pixel in the mean what all bri
     }
 }
 
-TEST_CASE("a few lights bring the same mean where places on lights are random, too") {
+TEST_CASE("a few lights bring the same mean where places on lights are random, too" *
+          about_numbers) {
     TestScene all(kLamps, with_lights(0, 0.7), striped_files()),
         few(kLamps, with_lights(3, 0.7), striped_files());
     const auto mean = [](TestScene& scene, double x, double y, std::uint32_t seed) {

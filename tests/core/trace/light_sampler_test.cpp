@@ -8,6 +8,7 @@
 
 #include "core/math/xyz.h"
 #include "tests/core/trace/white_room.h"
+#include "tests/one_thread.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
@@ -19,7 +20,8 @@ const Vec3 kSensor{.8, .3, .5}, kUp{0, 0, 1};
 
 }  // namespace
 
-TEST_CASE("light sampler: intervals hold the light that large hemispheres find, 95 times in 100") {
+TEST_CASE("light sampler: intervals hold the light that large hemispheres find, 95 times in 100" *
+          about_numbers) {
     TestScene scene(kWhiteRoom, two_bounces());
     const double truth = illuminance_of(scene, kSensor, kUp);
     LightSampler sampler(scene.tracer, scene.warnings);

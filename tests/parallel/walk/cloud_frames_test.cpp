@@ -20,6 +20,7 @@
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
+using lightwalk::test::about_numbers;
 using lightwalk::test::one_thread;
 using lightwalk::test::TestScene;
 using namespace lightwalk::test::cloud_room;
@@ -65,7 +66,7 @@ TEST_CASE("cloud: a view that stands still is reused whole, but for what nobody 
 }
 
 TEST_CASE("cloud: mirrors, panes, polished floors and hidden things are true in motion" *
-          one_thread) {
+          about_numbers) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     for (const std::string walk : kWalks) {
