@@ -52,8 +52,8 @@ class RunningProgram {
 
 [[nodiscard]] std::string read_whole(const std::string& path);
 
-/// What stands in a file of JSON at a pointer (RFC 6901), e.g. "/ambient/computed": a number, or how
-/// many elements there are. Throws where nothing does.
+/// What stands in a file of JSON at a pointer (RFC 6901), e.g. "/ambient/computed": a number, or
+/// how many elements there are. Throws where nothing does.
 [[nodiscard]] double figure(const std::string& file, const std::string& pointer);
 
 }  // namespace lightwalk::test

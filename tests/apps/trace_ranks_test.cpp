@@ -123,9 +123,7 @@ TEST_CASE("trace on ranks: header lines and the sum of all ranks' rays are those
     const std::string stats = folder.path("stats.json");
     const std::string input = as_text(some_rays(3000));
     const std::vector<std::string> words{"trace", "-n", "1", "--stats", stats, scene};
-    const auto primary = [&] {
-        return figure(stats, "/rays/primary");
-    };
+    const auto primary = [&] { return figure(stats, "/rays/primary"); };
     const ProgramResult alone = run_program(words, input);
     CHECK(alone.out.starts_with("#?RADIANCE"));
     const int rays = primary();
