@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 sh apps/install_packages.sh clang-format-14 clang-tidy-14
-git ls-files '*.cpp' '*.h' | xargs clang-format-14 --dry-run -Werror
+git ls-files '*.cpp' '*.h' | xargs -P "$(nproc)" -n 100 clang-format-14 --dry-run -Werror
 
 build=build/lint
 cmake --preset asan -B "$build" -DLIGHTWALK_UNITY=ON -DLIGHTWALK_TESTS=OFF >/dev/null

@@ -149,6 +149,8 @@ export class Navigator {
     /** Switch between walking (the server keeps the eye's height above the floor) and flying. */
     set_walk(walk) {
         this.walk = walk;
+        // What is left of a rise, whose key was just let go, would end the walk at once.
+        if (walk) this.rates_ = this.rates_.map((rate, k) => (k === 2 ? 0 : rate));
         this.changed_ = true;
         ++this.epoch;
     }

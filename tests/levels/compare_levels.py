@@ -75,7 +75,7 @@ def build(name, work, shared, targets):
     call(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
           f"-DLIGHTWALK_ISA={level}", f"-DCMAKE_CXX_FLAGS={flags}", "-DLIGHTWALK_PERF=OFF", "-DLIGHTWALK_UNITY=ON", f"-DLIGHTWALK_SHARED={shared}",
           f"-DLIGHTWALK_WALK={'ON' if 'all' in targets else 'OFF'}",
-          "-DLIGHTWALK_UNOPTIMIZED=io/net;io/gltf;io/wavefront;apps;apps/session;apps/walk;parallel/ranks;parallel/work_queue"])
+          "-DLIGHTWALK_UNOPTIMIZED=io/net;io/gltf;io/wavefront;io/options;io/contributions;io/rad;io/scene;apps;apps/session;apps/walk;parallel/ranks;parallel/work_queue"])
     call(["ninja", "-C", folder, *targets])
     return folder
 

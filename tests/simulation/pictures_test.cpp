@@ -86,7 +86,7 @@ TEST_CASE("simulation: a picture's seed is played twice in the same way" * test:
 }
 
 TEST_CASE("simulation: errors that are planted in pictures are found within some hundred seeds" *
-          test::one_thread) {
+          test::about_numbers) {
     const auto any = [](const Packet&, const Message&) { return true; };
     const auto block = [](const Packet&, const Message& message) {
         const auto* result = std::get_if<WorkResult>(&message);

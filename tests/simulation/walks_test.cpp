@@ -186,7 +186,7 @@ TEST_CASE("simulation: a walk's seed is played twice in the same way" * test::on
 }
 
 TEST_CASE("simulation: errors that are planted in walks are found within some hundred seeds" *
-          test::one_thread) {
+          test::about_numbers) {
     const auto any = [](const Packet&, const Message&) { return true; };
     const auto run = [](const Packet&, const Message& message) {
         const auto* result = std::get_if<WorkResult>(&message);

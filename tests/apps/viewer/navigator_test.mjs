@@ -181,6 +181,17 @@ test("rising leaves the floor: walking becomes flying", () => {
     assert.ok(navigator.view.position[2] > 1.6);
 });
 
+test("who goes down to the floor walks, though the eye has not come to rest from rising", () => {
+    const { navigator, tick, now } = standing();
+    navigator.press("KeyE", now());
+    for (let k = 0; k < 30; ++k) tick();
+    navigator.release("KeyE", now());
+    assert.ok(tick().moving);
+    navigator.set_walk(true);
+    until_rest(tick);
+    assert.equal(navigator.walk, true);
+});
+
 test("Shift is faster and Alt slower by their factors", () => {
     const distance = (modifier) => {
         const { navigator, tick, now } = standing();

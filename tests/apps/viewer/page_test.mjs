@@ -260,6 +260,7 @@ const steps = {
     },
 
     async "a watcher watches, and takes over when nobody drives"(page) {
+        await begin_anew(page); // one whose line broke within half a minute takes over by itself
         await prank("steal");
         await page.waitForSelector("text=Watching");
         const before = await value(page, "view_id"); // one may still have been on its way
@@ -379,6 +380,11 @@ async function run() {
         viewport: kSize,
         hasTouch: true,
         reducedMotion: "reduce", // what fades takes its time, which no step is about
+    });
+    // Every other refresh: here it is the processor that runs the page's shaders.
+    await page.addInitScript(() => {
+        const refreshed = window.requestAnimationFrame.bind(window);
+        window.requestAnimationFrame = (draw) => refreshed(() => refreshed(draw));
     });
     page.setDefaultTimeout(20000);
     const complaints = [];
