@@ -12,8 +12,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 namespace lightwalk::test {
@@ -175,7 +175,9 @@ std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std:
 
 std::string read_whole(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::ostringstream all;
+    all << file.rdbuf();  // of what goes away meanwhile, as a process's files do, no exception
+    return all.str();
 }
 
 double figure(const std::string& file, const std::string& pointer) {
