@@ -372,8 +372,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("contrib: cached coefficients are those of traced rays, the closer the lower -aa" *
-          about_numbers) {
+TEST_CASE("contrib: cached coefficients are traced rays', closer with lower -aa" * about_numbers) {
     const TemporaryFolder folder;
     // The wide ground makes the scene large, so that records may reach far: not through the walls.
     const std::string room = R"(
@@ -393,10 +392,9 @@ pane polygon window 0 0 12 1 0 .9 1 0 2.6 4 0 2.6 4 0 .9
 wall polygon table 0 0 12 1 5 .7 4 5 .7 4 6 .7 1 6 .7
 )";
     std::string rays;
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < 5; ++i)
         for (int j = 0; j < 8; ++j)
             rays += std::to_string(i + 0.5) + " " + std::to_string(j + 0.5) + " .8 0 0 1\n";
-    }
     const auto coefficients = [&](std::vector<std::string> words) {
         const std::vector<std::string> bins{"-h-", "-I", "-ab",        "3",   "-lw", "1e-5", "-lr",
                                             "-10", "-b", "if(Dx,1,0)", "-bn", "2",   "-m",   "sky"};

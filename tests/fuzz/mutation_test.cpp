@@ -22,7 +22,7 @@ namespace {
 
 #if defined(__SANITIZE_ADDRESS__)  // four times as slow; without it all are run, and their memory
                                    // is watched
-constexpr int kMutants = 1000;
+constexpr int kMutants = 2000;
 #else
 constexpr int kMutants = 10000;
 #endif

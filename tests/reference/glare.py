@@ -116,7 +116,7 @@ def colours_differ(falsecolor, picture, expected):
         if found.shape != theirs.shape or found.size != 3 * SIZE * SIZE:
             return math.inf, 1
         off = numpy.abs(found - theirs)
-        worst, differing = max(worst, float(off.max())), max(differing, float((off > 1e-6).mean()))
+        worst, differing = max(worst, float(off.max())), max(differing, float((off > 0).mean()))
     return worst, differing
 
 

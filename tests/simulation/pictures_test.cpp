@@ -67,7 +67,7 @@ class PicturePlayer {
 };
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t kPictures = 250;
+constexpr std::uint64_t kPictures = 500;
 #else
 constexpr std::uint64_t kPictures = 10000;
 #endif

@@ -138,7 +138,7 @@ class WalkPlayer {
 };
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t kWalks = 120;
+constexpr std::uint64_t kWalks = 250;
 #else
 constexpr std::uint64_t kWalks = 4000;
 #endif
