@@ -27,24 +27,36 @@ void ProgressivePicture::begin(std::span<const Rgb> radiance, std::span<const fl
     origins_.assign(origins.begin(), origins.end());
     groups_.assign(groups.begin(), groups.end());
     with_groups_ = groups.empty() ? 0 : radiance.size();
+    choose_edges();
 }
 
 void ProgressivePicture::mix(const LightMixture& mixture) {
     const std::size_t count = groups_.size() / radiance_.size();
     for (std::size_t i = 0; i < radiance_.size(); ++i)
         radiance_[i] = mixture.sum(std::span(groups_).subspan(i * count, count));
+    choose_edges();
 }
 
 ProgressiveWork ProgressivePicture::next(std::size_t most) const {
     ProgressiveWork work = open(most);
-    return work.places.empty() ? steep(most) : work;
+    if (!work.places.empty()) return work;
+    const auto count = static_cast<std::ptrdiff_t>(std::min(most, edges_.places.size()));
+    return {edges_.sample, {edges_.places.begin(), edges_.places.begin() + count}};
 }
 
 bool ProgressivePicture::finished() const {
-    const auto is_open = [](const PixelOrigin& pixel) {
-        return pixel.kind != PixelOrigin::Kind::traced;
-    };
-    return std::none_of(origins_.begin(), origins_.end(), is_open) && !has_steep();
+    return !has_open() && edges_.places.empty();
+}
+
+bool ProgressivePicture::has_open() const {
+    return std::ranges::any_of(
+        origins_, [](const PixelOrigin& pixel) { return pixel.kind != PixelOrigin::Kind::traced; });
+}
+
+/// All that one pass finds, and no other pass before these are traced: some of them would have
+/// blurred others by then, and how many depends on the time there was.
+void ProgressivePicture::choose_edges() {
+    edges_ = has_open() ? ProgressiveWork{} : steep();
 }
 
 std::size_t ProgressivePicture::open_pixels() const {
@@ -111,16 +123,9 @@ bool ProgressivePicture::is_steep(int x, int y) const {
            (y + 1 < height_ && is_step(own, radiance_[at(x, y + 1)]));
 }
 
-bool ProgressivePicture::has_steep() const {
-    for (int y = 0; y < height_; ++y)
-        for (int x = 0; x < width_; ++x)
-            if (origins_[at(x, y)].samples < most_samples_ && is_steep(x, y)) return true;
-    return false;
-}
-
 /// Of the pixels at edges those that have the fewest rays, if they are not too few: what is chosen
 /// takes a pass over the picture, and new edges come up in ones and twos as others get blurred.
-ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
+ProgressiveWork ProgressivePicture::steep() const {
     std::vector<std::vector<PixelPlace>> by_samples(static_cast<std::size_t>(most_samples_));
     std::size_t all = 0;
     for (int y = 0; y < height_; ++y) {
@@ -136,7 +141,6 @@ ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
     auto chosen = std::ranges::find_if(
         by_samples, [&](std::size_t count) { return count * kLeastPart >= all; }, size);
     if (chosen == by_samples.end()) chosen = std::ranges::max_element(by_samples, {}, size);
-    if (chosen->size() > most) chosen->resize(most);
     return {static_cast<int>(chosen - by_samples.begin()), std::move(*chosen)};
 }
 
@@ -162,6 +166,10 @@ void ProgressivePicture::record(const ProgressiveWork& work,
         origins_[pixel] = {PixelOrigin::Kind::traced, static_cast<std::uint8_t>(work.sample + 1),
                            0};
     }
+    std::erase_if(edges_.places, [&](const PixelPlace& place) {
+        return origins_[at(place.x, place.y)].samples > edges_.sample;
+    });
+    if (edges_.places.empty()) choose_edges();
 }
 
 }  // namespace lightwalk

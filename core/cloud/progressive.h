@@ -71,7 +71,8 @@ class ProgressivePicture {
     /// The next pixels to trace, at most `most`: first interpolated ones (coarse grids first), then
     /// guessed ones, then reused ones (oldest points first), then further rays, one at a time, for
     /// pixels that differ by more than a tenth from a neighbour: those with the fewest rays first,
-    /// unless they are few. Empty when the picture is finished.
+    /// unless they are few. Empty when the picture is finished. Which pixels get further rays does
+    /// not depend on `most`, or on how many there is time for: so neither does a finished picture.
     [[nodiscard]] ProgressiveWork next(std::size_t most) const;
     /// Whether next() has nothing any more.
     [[nodiscard]] bool finished() const;
@@ -103,8 +104,9 @@ class ProgressivePicture {
 
   private:
     [[nodiscard]] ProgressiveWork open(std::size_t most) const;
-    [[nodiscard]] ProgressiveWork steep(std::size_t most) const;
-    [[nodiscard]] bool has_steep() const;
+    [[nodiscard]] bool has_open() const;
+    [[nodiscard]] ProgressiveWork steep() const;
+    void choose_edges();
     [[nodiscard]] bool is_steep(int x, int y) const;
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
@@ -115,7 +117,8 @@ class ProgressivePicture {
     std::vector<Rgb> radiance_;
     std::vector<float> distance_;
     std::vector<PixelOrigin> origins_;
-    std::vector<Rgb> groups_;      ///< by pixel, then group; empty: not kept
+    ProgressiveWork edges_;    ///< pixels that were at edges when all of them were chosen at once
+    std::vector<Rgb> groups_;  ///< by pixel, then group; empty: not kept
     std::size_t with_groups_ = 0;  ///< pixels of which these are known
 };
 

@@ -156,7 +156,7 @@ def check_kept(program, scene, folder, mpirun):
         return client.until(lambda m: isinstance(m, dict) and m["type"] == "state")["reuse"]
 
     def at_last():
-        client.until(lambda m: isinstance(m, Frame) and m.finished)
+        client.until(lambda m: isinstance(m, Frame) and m.finished and m.view >= client.ident)
         return client.pieces
 
     try:
@@ -165,6 +165,10 @@ def check_kept(program, scene, folder, mpirun):
         begin()
         picture = at_last()
         soon(kept, "nothing is kept")
+        client.look(position=[1, -3, 1.5])
+        assert at_last() != picture
+        client.look()  # whatever was known, and however much was traced at a time
+        assert at_last() == picture
         known = begin_again(lambda: None)
         assert known > .9, known
         assert at_last() == picture

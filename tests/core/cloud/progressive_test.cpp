@@ -101,3 +101,35 @@ TEST_CASE("progressive view: edges that few rays have shown do not hold up the o
     CHECK(picture.finished());
     CHECK(picture.origins()[1].samples == ProgressivePicture::kMostSamples);
 }
+
+TEST_CASE("progressive view: a finished picture is the same however much was traced at a time") {
+    // Rays that have much to say, of which some are without time.
+    constexpr int kSide = 40;
+    const auto ray = [](const PixelPlace& place, int sample) {
+        const auto x = static_cast<unsigned>(place.x / 3), y = static_cast<unsigned>(place.y / 5);
+        const unsigned mixed = (x * 73U + y * 151U + static_cast<unsigned>(sample) * 37U) % 11U;
+        return PixelValue{Rgb::grey(1 + 0.1f * static_cast<float>(mixed)), 5};
+    };
+    const auto finish = [&](std::size_t most, std::size_t without_time) {
+        ProgressivePicture picture(kSide, kSide);
+        const std::vector<Rgb> black(kSide * kSide);
+        picture.begin(black, std::vector<float>(black.size()),
+                      std::vector<PixelOrigin>(black.size()));
+        std::size_t rays = 0;
+        for (ProgressiveWork work = picture.next(most); !work.places.empty();
+             work = picture.next(most)) {
+            std::vector<std::optional<PixelValue>> traced;
+            for (const PixelPlace& place : work.places)
+                traced.push_back(++rays % without_time == 0
+                                     ? std::nullopt
+                                     : std::optional(ray(place, work.sample)));
+            picture.record(work, traced);
+        }
+        CHECK(picture.finished());
+        return std::vector<Rgb>(picture.radiance().begin(), picture.radiance().end());
+    };
+    const std::vector<Rgb> at_once = finish(kSide * kSide, 1000000);
+    CHECK(finish(7, 1000000) == at_once);
+    CHECK(finish(100, 3) == at_once);
+    CHECK(finish(1, 2) == at_once);
+}
