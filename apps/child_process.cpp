@@ -10,6 +10,9 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -18,10 +21,11 @@
 namespace lightwalk {
 namespace {
 
-constexpr int kTick = 500;                   // [ms]
-constexpr std::size_t kLastWords = 16384;    // of standard error [bytes]
-constexpr std::size_t kLongestLine = 65536;  // what is longer is handed on [bytes]
-constexpr std::size_t kMostPieces = 64;      // at once, lest a flood of words keeps signals waiting
+constexpr int kTick = 500;                     // [ms]
+constexpr std::chrono::seconds kUnheeded{10};  // that children are dead; a sound process: no time
+constexpr std::size_t kLastWords = 16384;      // of standard error [bytes]
+constexpr std::size_t kLongestLine = 65536;    // what is longer is handed on [bytes]
+constexpr std::size_t kMostPieces = 64;  // at once, lest a flood of words keeps signals waiting
 
 sigset_t child_signals() {
     sigset_t signals{};
@@ -59,7 +63,37 @@ void hand_on(std::string_view text, std::FILE* to) {
     (void)std::fflush(to);
 }
 
+bool has_ended(const std::string& process) {
+    std::ifstream file("/proc/" + process + "/stat");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t name_end = text.rfind(") ");  // the name itself may have any characters
+    return name_end != std::string::npos && text.find_first_of("ZX", name_end) == name_end + 2;
+}
+
+/// Whether it has children that have ended, and no others (proc(5): children, stat).
+bool has_dead_alone(pid_t process) {
+    bool any = false;
+    std::error_code error;
+    const std::string tasks = "/proc/" + std::to_string(process) + "/task";
+    for (std::filesystem::directory_iterator task(tasks, error), end; !error && task != end;
+         task.increment(error)) {
+        std::ifstream children(task->path() / "children");
+        for (std::string child; children >> child; any = true)
+            if (!has_ended(child)) return false;
+    }
+    return any && !error;
+}
+
 }  // namespace
+
+bool UnheededEnds::seen(pid_t process) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!has_dead_alone(process))
+        since_.reset();
+    else if (!since_)
+        since_ = now;
+    return since_ && now - *since_ >= kUnheeded;
+}
 
 ChildSignals::ChildSignals() {
     const sigset_t signals = child_signals();
@@ -124,11 +158,12 @@ ChildProcess::End ChildProcess::wait() {
         // Of what has reached its end poll() would tell without pause.
         std::array<pollfd, 3> news{
             {{signals_.descriptor(), POLLIN, 0}, {out_.get(), POLLIN, 0}, {err_.get(), POLLIN, 0}}};
-        const int found = poll(news.data(), news.size(), output_.tick ? kTick : -1);
+        const int found = poll(news.data(), news.size(), kTick);
         if (found > 0 && news[0].revents != 0) take_signal(end);
         if (news[1].revents != 0 && (news[1].revents & POLLIN) == 0) out_ = FileDescriptor();
         if (news[2].revents != 0 && (news[2].revents & POLLIN) == 0) err_ = FileDescriptor();
         if (output_.tick) output_.tick();
+        if (!end.hung && ends_.seen(process_)) end.hung = kill(process_, SIGKILL) == 0;
     }
     if (!line_.empty()) hand_on(std::exchange(line_, {}) + '\n', stdout);
     return end;

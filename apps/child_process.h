@@ -2,8 +2,10 @@
 // A process that this one starts, waits for, and hands signals on to.
 #include <sys/types.h>
 
+#include <chrono>
 #include <csignal>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,18 @@ class ChildSignals {
     FileDescriptor descriptor_;
 };
 
+/// Tells of a process that hangs in its own end: all of its children have ended, and it takes no
+/// notice. mpirun may do so (a lock between its threads, as PMIx's server ends).
+class UnheededEnds {
+  public:
+    /// Whether it has been so for a while by now, at every call; false where the system does not
+    /// say which children there are. To be called every second or so.
+    [[nodiscard]] bool seen(pid_t process);
+
+  private:
+    std::optional<std::chrono::steady_clock::time_point> since_;
+};
+
 /// It gets SIGTERM where this process dies.
 class ChildProcess {
   public:
@@ -44,6 +58,7 @@ class ChildProcess {
     struct End {
         int how = 0;               ///< as waitpid(2) tells it
         bool interrupted = false;  ///< this process was told to end, and told it so
+        bool hung = false;         ///< it was killed, see UnheededEnds
         std::string last_words;    ///< the end of what it has written to standard error
     };
 
@@ -63,6 +78,7 @@ class ChildProcess {
     const ChildSignals& signals_;
     Output output_;
     pid_t process_ = 0;
+    UnheededEnds ends_;         ///< of its children
     FileDescriptor out_, err_;  ///< what it writes; none: it does so by itself
     std::string line_;          ///< the beginning of one
 };

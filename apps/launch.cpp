@@ -193,6 +193,7 @@ class Launch {
     }
 
     [[nodiscard]] bool is_by_srun() const { return starter_ == RankStarter::srun; }
+    [[nodiscard]] std::string starter_name() const { return is_by_srun() ? "srun" : "mpirun"; }
 
     /// From here on there are several threads.
     void open_head() {
@@ -237,7 +238,12 @@ class Launch {
             const bool missing = error.code() == std::errc::no_such_file_or_directory;
             throw InputError(error.what() + (missing ? "; " + starter_package(starter_) : ""));
         }
-        return run->wait();
+        ChildProcess::End end = run->wait();
+        if (end.hung)
+            std::fprintf(stderr,
+                         "lightwalk launch: %s hung when its ranks had ended, and was killed\n",
+                         starter_name().c_str());
+        return end;
     }
 
     /// Whether rank 0 says where its web server is: "http://HOST:PORT/?token=TOKEN".
@@ -293,7 +299,7 @@ class Launch {
         std::string loss;
         if (status > kKilled || is_by_srun()) loss = told_loss(starter_, end.last_words);
         if (!loss.empty() || status <= kKilled) return loss;
-        return WIFSIGNALED(end.how) ? std::string(is_by_srun() ? "srun" : "mpirun") + " was killed"
+        return WIFSIGNALED(end.how) ? starter_name() + " was killed"
                                     : "ended with status " + std::to_string(status);
     }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -88,6 +89,24 @@ TEST_CASE("launch: what a command ends with by itself is no loss") {
     CHECK(missing.err.find("cannot open") != std::string::npos);
     CHECK(missing.err.find("goes on") == std::string::npos);
     CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("launch: an mpirun that hangs when its ranks have ended is killed, and the run goes on") {
+    const TemporaryFolder folder;
+    const std::string begun = folder.path("begun");
+    // What a shell has started, and leaves to a program that asks for no ends of children.
+    folder.write("mpirun", "#!/bin/sh\n[ -e '" + begun + "' ] && exit 0\n: > '" + begun +
+                               "'\ntrue &\nexec sleep 600\n");
+    std::filesystem::permissions(folder.path("mpirun"), std::filesystem::perms::owner_all);
+    const std::vector<std::string> path{
+        "env", "PATH=" + folder.path() + ':' + std::getenv("PATH")};  // NOLINT: nobody writes it
+    const std::vector<std::string> render{"render", "--checkpoint",         folder.path("blocks"),
+                                          "-o",     folder.path("out.hdr"), "room.rad"};
+    const ProgramResult gone_on = run_program(with({"launch", "--retries", "1"}, render), "", path);
+    CAPTURE(gone_on.err);
+    CHECK(gone_on.status == 0);
+    CHECK(gone_on.err.find("mpirun hung when its ranks had ended") != std::string::npos);
+    CHECK(gone_on.err.find("goes on (1 of 1)") != std::string::npos);
 }
 
 TEST_CASE("launch: mistakes are told before anything is started") {

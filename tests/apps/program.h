@@ -11,6 +11,7 @@ namespace lightwalk::test {
 struct ProgramResult {
     int status = -1;  ///< exit status; 128 + n for a process that signal n killed
     std::string out, err;
+    bool hung = false;  ///< its launcher hung when what it had started had ended, and was killed
 };
 
 /// Run the program to its end with `input` on standard input.
@@ -39,10 +40,11 @@ class RunningProgram {
 
   private:
     int process_ = -1, in_ = -1, out_ = -1, err_ = -1;
+    bool launched_;  ///< by a launcher
 };
 
 /// Whether mpirun failed rather than the program: Open MPI 4's mpirun may crash while it forwards
-/// input (open-mpi/ompi issue 7483), or find no way to start.
+/// input (open-mpi/ompi issue 7483), find no way to start, or hang in its end.
 [[nodiscard]] bool launcher_died(const ProgramResult& result);
 
 /// The command that starts ranks of the program on this machine, for any number of cores; nothing

@@ -16,6 +16,8 @@
 #include <sstream>
 #include <thread>
 
+#include "apps/child_process.h"
+
 namespace lightwalk::test {
 namespace {
 
@@ -34,10 +36,21 @@ std::string read_all(int descriptor) {
     return text;
 }
 
+/// What waitpid(2) tells of it; what hangs in its own end is killed.
+int wait_for_launcher(pid_t process, bool& hung) {
+    int status = 0;
+    for (UnheededEnds ends; waitpid(process, &status, WNOHANG) == 0;) {
+        if (!hung && ends.seen(process)) hung = kill(process, SIGKILL) == 0;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return status;
+}
+
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& words,
-                               const std::vector<std::string>& launcher) {
+                               const std::vector<std::string>& launcher)
+    : launched_(!launcher.empty()) {
     std::signal(SIGPIPE, SIG_IGN);
     const std::array<int, 2> in = make_pipe();
     const std::array<int, 2> out = make_pipe();
@@ -112,12 +125,16 @@ ProgramResult RunningProgram::finish(const std::string& input) {
     });
     ProgramResult result;
     std::thread errors([&] { result.err = read_all(err_); });
-    result.out = read_all(out_);
+    std::thread outputs([&] { result.out = read_all(out_); });
+    int status = 0;
+    if (launched_)
+        status = wait_for_launcher(process_, result.hung);
+    else
+        waitpid(process_, &status, 0);
+    process_ = -1;
+    outputs.join();
     errors.join();
     inputs.join();
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = -1;
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return result;
 }
@@ -127,8 +144,8 @@ bool launcher_died(const ProgramResult& result) {
         return result.err.find(words) != std::string::npos;
     };
     if (result.status == 128 + SIGSEGV) return says("orte_iof_hnp");
-    return result.status != 0 &&
-           (says("ORTE_ERROR_LOG") || says("orte_init failed") || says("PMIX ERROR"));
+    return result.hung || (result.status != 0 && (says("ORTE_ERROR_LOG") ||
+                                                  says("orte_init failed") || says("PMIX ERROR")));
 }
 
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input,
