@@ -68,6 +68,17 @@ export async function saved_text(page, button) {
     return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
 }
 
+/** Draw an area and have its mean. */
+export async function mean_over_area(page) {
+    await page.evaluate(() => (window.lightwalk.last_mean = null));
+    await page.keyboard.press("r");
+    await page.mouse.move(300, 100);
+    await page.mouse.down();
+    await page.mouse.move(500, 200, { steps: 3 });
+    await page.mouse.up();
+    await until(page, () => window.lightwalk.last_mean?.luminance > 0);
+}
+
 /** Fingers on the picture, as Chromium's input layer has them. */
 export async function touch(page, moves) {
     const line = await page.context().newCDPSession(page);

@@ -11,6 +11,15 @@ import { kSize, saved_text, shown, until, value } from "./page_helpers.mjs";
 const final = (page) =>
     until(page, () => document.querySelector("#isolux-text").textContent.endsWith("Final."));
 
+/** Opens the panel and measures a plane, where the steps before have left neither. */
+async function have_isolux(page) {
+    if (!(await page.isVisible("#isolux-height"))) await page.click("#dock [data-panel=measure]");
+    if (await value(page, "last_isolux")) return;
+    await page.fill("#isolux-height", "0.75");
+    await page.click("#isolux-floor");
+    await final(page);
+}
+
 /** The contours over the picture: {level: points on the screen}. The labels are in the order of the lines that have one. */
 const drawn = (page) =>
     page.evaluate(() =>
@@ -76,6 +85,7 @@ export const isolux_steps = (prank, npm) => ({
     async "isolux stay in their places when the eye turns, hidden by what stands before them"(
         page,
     ) {
+        await have_isolux(page);
         await page.fill("#isolux-height", "0");
         await page.click("#isolux-floor");
         await final(page);
@@ -113,6 +123,7 @@ export const isolux_steps = (prank, npm) => ({
     async "isolux of a scene that is read again are out of date until they are measured again"(
         page,
     ) {
+        await have_isolux(page);
         const mean = async () => statistics(read_grid(await value(page, "last_isolux"))).mean;
         const before = await mean();
         await prank("reload");
@@ -124,6 +135,7 @@ export const isolux_steps = (prank, npm) => ({
     },
 
     async "isolux are saved as a table, and as points for rtrace with the command"(page) {
+        await have_isolux(page);
         const { count } = statistics(read_grid(await value(page, "last_isolux")));
         const table = await saved_text(page, "#write-isolux");
         assert.match(table.name, /\.isolux\.csv$/);
@@ -137,6 +149,7 @@ export const isolux_steps = (prank, npm) => ({
     },
 
     async "a surface for isolux is chosen by keys, and what has no plane says so"(page) {
+        await have_isolux(page);
         await page.click("#clear-isolux");
         assert.equal(await page.locator("#overlay .contour").count(), 0);
         assert.ok(await page.isHidden("#isolux-files"));
