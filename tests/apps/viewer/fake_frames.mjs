@@ -2,8 +2,8 @@
 import { deflateSync } from "node:zlib";
 import { bands_of, depth_of_bands } from "./fake_depth.mjs";
 import {
-    depth_at,
-    direction_at,
+    depth_along,
+    directions_of,
     exposure_of,
     kWhite,
     look,
@@ -11,7 +11,7 @@ import {
     paint,
 } from "./fake_scene.mjs";
 
-const kMoving = 320; // pixels across while moving
+const kMoving = 200; // pixels across while moving
 export const kStrips = 8; // pieces of a picture at rest
 
 const crc_table = Array.from({ length: 256 }, (_, n) => {
@@ -101,7 +101,7 @@ function painted_coarse(jpeg, view, { width, height }, display) {
     return { x: 0, y: 0, width, height, codec: 1, bytes };
 }
 
-/** One strip in full; the first ones as PNG, so that both codecs are in use. */
+/** One strip in full; the last one as JPEG, so that both codecs are in use: its encoder here is slow. */
 export function strip_piece(jpeg, view, { width, height }, k, display) {
     return once([k, view, width, height, display], () =>
         painted_strip(jpeg, view, { width, height }, k, display),
@@ -112,7 +112,7 @@ function painted_strip(jpeg, view, { width, height }, k, display) {
     const from = Math.floor((k * height) / kStrips),
         to = Math.floor(((k + 1) * height) / kStrips);
     const data = paint(view, width, height, from, to, display);
-    const codec = k < 2 ? 2 : 1;
+    const codec = k < kStrips - 1 ? 2 : 1;
     const bytes =
         codec === 2
             ? png(data, width, to - from)
@@ -129,10 +129,11 @@ function depth_of(view, { width, height }) {
     const kStep = 0.001,
         kCell = 4; // the unit of inverse depth [1/m]; [pixels]
     const columns = Math.ceil(width / kCell);
+    const direction = directions_of(view);
     const cells = Array.from({ length: columns * Math.ceil(height / kCell) }, (_, k) => {
         const x = ((k % columns) + 0.5) * (kCell / width),
             y = 1 - (Math.floor(k / columns) + 0.5) * (kCell / height);
-        return Math.min(65535, Math.round(1 / (kStep * depth_at(view, x, y))));
+        return Math.min(65535, Math.round(1 / (kStep * depth_along(view, direction(x, y)))));
     });
     const inverse = (x, y) => cells[Math.floor(y / kCell) * columns + Math.floor(x / kCell)];
     const bytes = depth_of_bands(kStep, bands_of(inverse, width, height));
@@ -150,9 +151,10 @@ function painted_luminance(jpeg, view, { width, height }, display) {
     const [w, h] = [Math.ceil(width / 4), Math.ceil(height / 4)];
     const [low, step] = [-2, 0.0625]; // logarithms to the base of 2 [cd/m2]
     const data = Buffer.alloc(4 * w * h, 255);
+    const direction = directions_of(view);
     for (let k = 0; k < w * h; ++k) {
         const [x, y] = [((k % w) + 0.5) / w, 1 - (Math.floor(k / w) + 0.5) / h];
-        const hit = look(view.position, direction_at(view, x, y));
+        const hit = look(view.position, direction(x, y));
         const L = hit ? luminance_of(hit) : 0;
         const grey =
             L > 0 ? Math.max(1, Math.min(255, Math.round((Math.log2(L) - low) / step))) : 0;

@@ -18,7 +18,10 @@ const cross = (a, b) => [
     a[2] * b[0] - a[0] * b[2],
     a[0] * b[1] - a[1] * b[0],
 ];
-const unit = (a) => a.map((x) => x / Math.hypot(...a));
+const unit = ([x, y, z]) => {
+    const length = Math.hypot(x, y, z);
+    return [x / length, y / length, z / length];
+};
 
 /** Where a ray leaves (inside) or enters (outside) a box: {t, axis, sign}. */
 function box_hit(origin, direction, { low, high }, inside) {
@@ -59,7 +62,11 @@ function daylight(position, normal) {
 
 /** What a ray meets: {t, position, normal, luminance, colour, material, surface}. */
 export function look(origin, direction) {
-    const at = (t) => origin.map((x, k) => x + t * direction[k]);
+    const at = (t) => [
+        origin[0] + t * direction[0],
+        origin[1] + t * direction[1],
+        origin[2] + t * direction[2],
+    ];
     const wall = box_hit(origin, direction, kRoom, true);
     if (!wall) return null;
     let t = wall.t,
@@ -129,19 +136,21 @@ export function look(origin, direction) {
     return { t, position, normal, luminance, colour, material, surface };
 }
 
-/** The direction of a place x, y (0..1 from the lower left) of a perspective view. */
-export function direction_at(view, x, y) {
+/** Of a perspective view: what gives the direction of a place x, y (0..1 from the lower left). */
+export function directions_of(view) {
     const forward = unit(view.direction),
         right = unit(cross(forward, view.up)),
         up = cross(right, forward);
     const w = 2 * Math.tan((view.horizontal * Math.PI) / 360),
         h = 2 * Math.tan((view.vertical * Math.PI) / 360);
-    return unit(forward.map((f, k) => f + right[k] * w * (x - 0.5) + up[k] * h * (y - 0.5)));
+    const along = (k, x, y) => forward[k] + right[k] * w * (x - 0.5) + up[k] * h * (y - 0.5);
+    return (x, y) => unit([along(0, x, y), along(1, x, y), along(2, x, y)]);
 }
 
-/** How far ahead lies what a view shows at x, y (0..1 from the left and the bottom) [m]. */
-export function depth_at(view, x, y) {
-    const direction = direction_at(view, x, y);
+export const direction_at = (view, x, y) => directions_of(view)(x, y);
+
+/** How far ahead lies what a view shows along one of its directions [m]. */
+export function depth_along(view, direction) {
     const t = look(view.position, direction)?.t ?? Infinity;
     return t * dot(direction, unit(view.direction));
 }
@@ -199,13 +208,11 @@ export const exposure_of = (display) => (display.exposure.auto ? 1.1 : 2 ** disp
 export function paint(view, width, height, from, to, display) {
     const bytes = Buffer.alloc(width * (to - from) * 4, 255);
     const factor = exposure_of(display);
+    const direction = directions_of(view);
     let k = 0;
     for (let y = from; y < to; ++y)
         for (let x = 0; x < width; ++x, k += 4) {
-            const hit = look(
-                view.position,
-                direction_at(view, (x + 0.5) / width, 1 - (y + 0.5) / height),
-            );
+            const hit = look(view.position, direction((x + 0.5) / width, 1 - (y + 0.5) / height));
             const [r, g, b] = colour_of(hit, display, factor);
             bytes[k] = r;
             bytes[k + 1] = g;

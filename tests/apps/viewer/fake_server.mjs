@@ -351,7 +351,7 @@ const beside = new FakeBeside(jpeg, kLoaded, edited_message);
 setInterval(() => {
     [...clients].forEach(([socket, client]) => next_frame(socket, client));
     if (wish && !dumb) beside.next_frame(present_view(), wish, display);
-}, 8);
+}, 24);
 setInterval(() => {
     const [client] = clients.values();
     if (!client || !wish || failing) return;
