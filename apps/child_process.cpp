@@ -22,7 +22,7 @@ namespace lightwalk {
 namespace {
 
 constexpr int kTick = 500;                     // [ms]
-constexpr std::chrono::seconds kUnheeded{10};  // that children are dead; a sound process: no time
+constexpr std::chrono::seconds kUnheeded{10};  // a sound process notices dead children at once
 constexpr std::size_t kLastWords = 16384;      // of standard error [bytes]
 constexpr std::size_t kLongestLine = 65536;    // what is longer is handed on [bytes]
 constexpr std::size_t kMostPieces = 64;  // at once, lest a flood of words keeps signals waiting
