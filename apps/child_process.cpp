@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -65,7 +65,8 @@ void hand_on(std::string_view text, std::FILE* to) {
 
 bool has_ended(const std::string& process) {
     std::ifstream file("/proc/" + process + "/stat");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::string text;
+    std::getline(file, text, '\0');                 // a process that is gone by now is no exception
     const std::size_t name_end = text.rfind(") ");  // the name itself may have any characters
     return name_end != std::string::npos && text.find_first_of("ZX", name_end) == name_end + 2;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/child_process.h"
 #include "apps/launch_hosts.h"
 #include "tests/apps/program.h"
 #include "tests/apps/rank_runs.h"
@@ -107,6 +108,14 @@ TEST_CASE("launch: an mpirun that hangs when its ranks have ended is killed, and
     CHECK(gone_on.status == 0);
     CHECK(gone_on.err.find("mpirun hung when its ranks had ended") != std::string::npos);
     CHECK(gone_on.err.find("goes on (1 of 1)") != std::string::npos);
+}
+
+TEST_CASE("unheeded ends: a process whose children come and go heeds them") {
+    RunningProgram shell({}, {"sh", "-c", "while :; do /bin/true; done"});
+    UnheededEnds ends;
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + std::chrono::seconds(1); Clock::now() < end;)
+        REQUIRE_FALSE(ends.seen(shell.process()));
 }
 
 TEST_CASE("launch: mistakes are told before anything is started") {
