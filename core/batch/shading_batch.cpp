@@ -24,6 +24,15 @@ class BatchScope {
 
 }  // namespace
 
+/// Nothing else is allocated while fibers wait: what would be thrown then would leave them behind,
+/// in the midst of bodies whose caller is gone.
+ShadingBatch::ShadingBatch(std::unique_ptr<Fibers> fibers)
+    : fibers_(std::move(fibers)), tasks_(fibers_->size()) {
+    waiting_.reserve(tasks_.size());
+    answered_.reserve(tasks_.size());
+    requests_.reserve(tasks_.size());
+}
+
 void ShadingBatch::run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
                        TraceContext& context, BatchWaits waits) {
     waits_ = waits;

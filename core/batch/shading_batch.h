@@ -31,8 +31,7 @@ class ShadingBatch {
     using Calculate = FunctionRef<void(std::span<const DirectRequest> requests)>;
 
     /// @param fibers  their number is that of the rays in flight; further rays follow
-    explicit ShadingBatch(std::unique_ptr<Fibers> fibers)
-        : fibers_(std::move(fibers)), tasks_(fibers_->size()) {}
+    explicit ShadingBatch(std::unique_ptr<Fibers> fibers);
 
     /// Calls body(i) for i = 0 ... count - 1, each on a fiber, with context.batches.current set to
     /// this batch. `calculate` runs on the caller's stack. When bodies throw, the run ends after
@@ -75,7 +74,7 @@ class ShadingBatch {
     std::unique_ptr<Fibers> fibers_;
     std::vector<ShadingTask> tasks_;
     std::size_t running_ = 0;
-    std::vector<std::size_t> waiting_, answered_;
+    std::vector<std::size_t> waiting_, answered_;  ///< these three have room for all tasks
     std::vector<DirectRequest> requests_;
 };
 
