@@ -2,7 +2,7 @@
 # What two cores cannot do within CI's time: every call to the system and every allocation that can fail, by every error; 100,000
 # seeds of the simulation; each fuzz target for so many seconds (60); which lines and branches the tests reach, with the shares that
 # are promised: tests/night.sh [SECONDS]. All of it runs whatever fails; a line for each stage comes last, and 1 where one has failed.
-# What the stages say is in build/night. On two cores some two hours.
+# What the stages say is in build/night. On two cores about an hour.
 set -u
 cd "$(dirname "$0")/.." || exit
 seconds=${1:-60}
