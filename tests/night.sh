@@ -24,6 +24,7 @@ stage() {
 cases() { ctest --test-dir build/release -N -R "^faults-($1)" | sed -n 's/^ *Test .*: faults-//p'; }
 # Side by side, one a processor: each of the words in the place of {}.
 each() {
+    [ -n "$1" ] || return 1 # nothing to run is nothing that passes
     printf '%s\n' "$1" >build/night/cases
     shift
     xargs -a build/night/cases -P "$(nproc)" -I{} "$@"
